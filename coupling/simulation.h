@@ -1,0 +1,104 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/scene.h"
+#include "fluid/liquid_solver.h"
+#include "foam/bubble_store.h"
+#include "foam/foam_solver.h"
+
+namespace spume::coupling {
+
+/// Gas of one step, or summed since the start [m^3]. Closed to 1e-12 of `entered()`:
+/// inBubbles + inReservoirs = bornMarkers + bornPockets + bornSources + grown - burst - killed - left.
+struct GasLedger {
+  double bornMarkers = 0, bornPockets = 0, bornSources = 0, grown = 0;
+  double burst = 0, killed = 0, left = 0;
+  double notEntrained = 0;                   ///< markers below the onset speed: booked, never a bubble
+  double inBubbles = 0, inReservoirs = 0;    ///< held at the end
+
+  double entered() const { return bornMarkers + bornPockets + bornSources + grown; }
+  double imbalance() const { return inBubbles + inReservoirs - (entered() - burst - killed - left); }
+};
+
+enum class BirthCause { marker, pocket, source, scene };
+
+/// A row of events.csv.
+struct Event {
+  enum class Kind { birth, burst, merge, classChange, kill, leave } kind;
+  double time;                 ///< [s]
+  std::uint64_t id;
+  std::uint64_t other = 0;     ///< merge: the bubble that took the gas
+  BirthCause cause = BirthCause::marker;
+  Eigen::Vector3d position{0, 0, 0};
+  double radius = 0, gas = 0, age = 0;
+  foam::BubbleClass from = foam::BubbleClass::liquid, to = foam::BubbleClass::liquid;
+};
+
+/// A row of steps.csv.
+struct StepReport {
+  int step = 0;
+  double time = 0, dt = 0;     ///< end of the step [s]
+  int halvings = 0;            ///< times dt was halved because a module failed
+  fluid::LiquidStepReport liquid;
+  foam::FoamStepReport foam;
+  GasLedger gas;               ///< totals since the start
+  double poured = 0, drained = 0;   ///< totals since the start [m^3]
+  double immersedGas = 0;      ///< [m^3]
+  std::size_t births = 0, bursts = 0;   ///< in this step
+  double secondsLiquid = 0, secondsEntrainment = 0, secondsFoam = 0;
+  std::vector<Event> events;
+};
+
+/// A row of frames.csv and all its steps.
+struct FrameReport {
+  int frame = 0;
+  double time = 0;
+  std::vector<StepReport> steps;
+  double seconds = 0;          ///< wall time of the frame
+};
+
+/// All that changes while a scene runs, beside the scene itself: a copy is an exact checkpoint.
+struct SimulationState {
+  int frame = 0, step = 0;
+  double time = 0;
+  fluid::LiquidState liquid;
+  foam::BubbleStore bubbles;
+  std::vector<std::array<double, 5>> reservoirs;   ///< entrainment blocks: i, j, k of the block, gas [m^3], next draw
+  GasLedger gas;
+  double initialVolume = 0, poured = 0, drained = 0;
+};
+
+/// Liquid and foam of one scene, advanced together.
+class Simulation {
+ public:
+  /// Throws InvalidParameter of either module, or SceneError.
+  explicit Simulation(const Scene& scene);
+  /// Continues from a checkpoint of the same scene.
+  Simulation(const Scene& scene, SimulationState state);
+  ~Simulation();
+
+  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. A step that fails leaves the
+  /// state as it was; dt is halved up to 4 times before NumericalFailure is thrown.
+  StepReport step(double dt);
+  /// Steps that sum exactly to the next frame's time. `onStep` is called after each.
+  FrameReport advanceFrame(const std::function<void(const StepReport&)>& onStep = {});
+
+  int frame() const;
+  double time() const;
+  const Scene& scene() const;
+  const fluid::LiquidState& liquid() const;
+  const fluid::SolidBoundary& solids() const;
+  const foam::BubbleStore& bubbles() const;
+  const foam::FoamTopology& topology() const;
+  SimulationState state() const;
+
+ private:
+  struct Internals;
+  std::unique_ptr<Internals> internals_;
+};
+
+}  // namespace spume::coupling

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fluid/dense_field.h"
+#include "fluid/grid_spec.h"
+#include "fluid/marker_set.h"
+
+namespace spume::fluid {
+
+/// All that a step of the liquid reads and writes: plain data, float grids, so that a copy of it is an exact
+/// checkpoint. `vdb_grids.h` turns it into OpenVDB grids and back.
+struct LiquidState {
+  GridSpec grid;
+  double time = 0;                   ///< [s]
+  std::int64_t subSteps = 0;         ///< sub-steps taken since the start; keys the random numbers of reseeding
+  DenseField<float> phi;             ///< signed distance to the surface at cell centres [m], < 0 in liquid
+  MacVelocity velocity;              ///< [m/s], extrapolated into air and solids
+  MacField<float> pressureGradient;  ///< of the last projection on faces [Pa/m]; 0 away from the liquid
+  MarkerSet positive, negative;
+};
+
+}  // namespace spume::fluid

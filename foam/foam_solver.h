@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "foam/bubble_store.h"
+#include "foam/foam_params.h"
+#include "foam/foam_topology.h"
+#include "foam/liquid_sampler.h"
+
+namespace spume::foam {
+
+enum class FoamEventKind { burst, merge, classChange };
+
+/// Something that happened to a bubble during a step.
+struct FoamEvent {
+  FoamEventKind kind;
+  std::uint64_t id;
+  std::uint64_t other = 0;               ///< merge: the bubble that took the gas
+  Eigen::Vector3d position;              ///< [m]
+  double radius;                         ///< [m]
+  double gas;                            ///< [m^3]
+  double age;                            ///< [s]
+  BubbleClass from, to;                  ///< classChange: before and after; otherwise both the class
+};
+
+struct FoamStageTime {
+  std::string stage;
+  double seconds;
+};
+
+/// What a step did.
+struct FoamStepReport {
+  std::size_t bubbles = 0, liquid = 0, surface = 0, air = 0;
+  std::size_t contacts = 0, overlaps = 0, hidden = 0, clamped = 0;
+  int solverIterations = 0;
+  double solverResidual = 0;
+  double maxSpeed = 0;                   ///< [m/s]
+  double gas = 0;                        ///< in bubbles at the end [m^3]
+  double gasBurst = 0;                   ///< released in this step [m^3]
+  double volumeErrorMedian = 0, volumeErrorMax = 0;   ///< |V - V0| / V0 over unflagged bubbles
+  double kineticEnergy = 0;              ///< [J]
+  std::vector<FoamEvent> events;
+  std::vector<FoamStageTime> stages;
+};
+
+/// Moves the bubbles of a foam through a liquid it can only sample. Holds scratch memory between steps, no
+/// state: everything a step depends on is in the BubbleStore.
+class FoamSolver {
+ public:
+  /// Throws InvalidParameter.
+  explicit FoamSolver(FoamParams params);
+  ~FoamSolver();
+
+  /// Advances all bubbles by dt [s]. Throws NumericalFailure, and then the store is as it was before the call.
+  FoamStepReport step(BubbleStore& bubbles, const LiquidSampler& liquid, double dt);
+
+  /// Largest dt [s] for which no pair of neighbours moves relative to each other by more than half the smaller radius.
+  double stableDt(const BubbleStore& bubbles) const;
+
+  /// Geometry after the last step, in the order of the store as it was then.
+  const FoamTopology& topology() const;
+  const FoamParams& params() const;
+
+ private:
+  struct Internals;
+  std::unique_ptr<Internals> internals_;
+};
+
+}  // namespace spume::foam
