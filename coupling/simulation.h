@@ -5,26 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "coupling/entrainment.h"
+#include "coupling/gas_ledger.h"
 #include "coupling/scene.h"
 #include "fluid/liquid_solver.h"
 #include "foam/bubble_store.h"
 #include "foam/foam_solver.h"
 
 namespace spume::coupling {
-
-/// Gas of one step, or summed since the start [m^3]. Closed to 1e-12 of `entered()`:
-/// inBubbles + inReservoirs = bornMarkers + bornPockets + bornSources + grown - burst - killed - left.
-struct GasLedger {
-  double bornMarkers = 0, bornPockets = 0, bornSources = 0, grown = 0;
-  double burst = 0, killed = 0, left = 0;
-  double notEntrained = 0;                   ///< markers below the onset speed: booked, never a bubble
-  double inBubbles = 0, inReservoirs = 0;    ///< held at the end
-
-  double entered() const { return bornMarkers + bornPockets + bornSources + grown; }
-  double imbalance() const { return inBubbles + inReservoirs - (entered() - burst - killed - left); }
-};
-
-enum class BirthCause { marker, pocket, source, scene };
 
 /// A row of events.csv.
 struct Event {
@@ -67,7 +55,7 @@ struct SimulationState {
   double time = 0;
   fluid::LiquidState liquid;
   foam::BubbleStore bubbles;
-  std::vector<std::array<double, 5>> reservoirs;   ///< entrainment blocks: i, j, k of the block, gas [m^3], next draw
+  Reservoirs reservoirs;
   GasLedger gas;
   double initialVolume = 0, poured = 0, drained = 0;
 };

@@ -79,6 +79,9 @@ class LiquidSolver {
   /// state is as it was before the call.
   LiquidStepReport step(double dt, const ImmersedGas& gas = {});
 
+  /// Takes the last successful step back, as when another module failed in the same shared step.
+  void rollBack();
+
   /// Largest dt [s] that one step takes in at most `maxSubSteps` sub-steps at the present velocities.
   double stableDt(int maxSubSteps = 1) const;
 
