@@ -16,10 +16,12 @@ namespace spume::coupling {
 
 /// A number that may be animated: constant, or piecewise linear in time between keys, held beyond them.
 struct Animated {
-  std::vector<std::pair<double, double>> keys{{0.0, 0.0}};   ///< (t [s], value), times increasing
+  std::vector<std::pair<double, double>> keys{{0.0, 0.0}};  ///< (t [s], value), times increasing
   Animated() = default;
-  Animated(double constant) : keys{{0.0, constant}} {}       // NOLINT: a number is the constant animation
+  Animated(double constant) : keys{{0.0, constant}} {}  // NOLINT: a number is the constant animation
   double at(double t) const;
+  double largest() const;  ///< over all times
+  bool operator==(const Animated&) const = default;
 };
 
 enum class ShapeKind { box, sphere, cylinder, halfSpace };
@@ -27,32 +29,32 @@ enum class ShapeKind { box, sphere, cylinder, halfSpace };
 /// A primitive given by its signed distance. Unused fields are ignored.
 struct ShapeSpec {
   ShapeKind kind = ShapeKind::box;
-  Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};   ///< box corners [m]
-  Eigen::Vector3d centre{0, 0, 0};                  ///< sphere, cylinder: centre [m]; halfSpace: a point of the plane
-  Eigen::Vector3d axis{0, 1, 0};                    ///< cylinder axis, halfSpace outward normal
-  double radius = 0;                                ///< [m]
-  double height = 0;                                ///< cylinder length along its axis [m]
+  Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};  ///< box corners [m]
+  Eigen::Vector3d centre{0, 0, 0};  ///< sphere, cylinder: centre [m]; halfSpace: a point of the plane
+  Eigen::Vector3d axis{0, 1, 0};    ///< cylinder axis, halfSpace outward normal
+  double radius = 0;                ///< [m]
+  double height = 0;                ///< cylinder length along its axis [m]
 };
 
 struct DomainSpec {
-  Eigen::Vector3d lower{0, 0, 0};                   ///< [m]
-  Eigen::Vector3d size{0, 0, 0};                    ///< [m], > 0; the only key without a default
-  int resolution = 64;                              ///< cells along the longest edge, 8 to 1024
-  std::array<bool, 6> closed{true, true, true, false, true, true};   ///< walls: -x +x -y +y -z +z
+  Eigen::Vector3d lower{0, 0, 0};  ///< [m]
+  Eigen::Vector3d size{0, 0, 0};   ///< [m], > 0; the only key without a default
+  int resolution = 64;             ///< cells along the longest edge, 8 to 1024
+  std::array<bool, 6> closed{true, true, true, false, true, true};  ///< walls: -x +x -y +y -z +z
 };
 
 struct TimeSpec {
-  double fps = 30;             ///< frames a second, 1 to 1000
-  int frames = 150;            ///< 1 to 1000000
-  double minDt = 0.005;        ///< shortest shared step [s], 1e-6 to 1
-  double maxDt = 0.02;         ///< longest shared step [s], 1e-6 to 1
-  int maxSubSteps = 4;         ///< liquid sub-steps the shared step is sized for, 1 to 100
+  double fps = 30;       ///< frames a second, 1 to 1000
+  int frames = 150;      ///< 1 to 1000000
+  double minDt = 0.005;  ///< shortest shared step [s], 1e-6 to 1
+  double maxDt = 0.02;   ///< longest shared step [s], 1e-6 to 1
+  int maxSubSteps = 4;   ///< liquid sub-steps the shared step is sized for, 1 to 100
 };
 
 struct LiquidBodySpec {
   std::string name;
   ShapeSpec shape;
-  Eigen::Vector3d velocity{0, 0, 0};   ///< initial [m/s]
+  Eigen::Vector3d velocity{0, 0, 0};  ///< initial [m/s]
 };
 
 struct SolidSpec {
@@ -62,47 +64,47 @@ struct SolidSpec {
 
 struct InflowSpec {
   std::string name;
-  Eigen::Vector3d centre{0, 0, 0};     ///< of the outlet disc [m]
+  Eigen::Vector3d centre{0, 0, 0};  ///< of the outlet disc [m]
   Eigen::Vector3d direction{0, -1, 0};
-  double radius = 0.01;                ///< of the outlet disc [m]
-  Animated speed{0.5};                 ///< along `direction` [m/s]
-  double turbulence = 0;               ///< rms relative fluctuation of the speed, 0 to 0.5
-  double start = 0, stop = 1e9;        ///< open between [s]
+  double radius = 0.01;          ///< of the outlet disc [m]
+  Animated speed{0.5};           ///< along `direction` [m/s]
+  double turbulence = 0;         ///< rms relative fluctuation of the speed, 0 to 0.5
+  double start = 0, stop = 1e9;  ///< open between [s]
 };
 
 /// Where escaped markers become bubbles (model, Section 4: rules 2 to 5).
 struct EntrainmentSpec {
   bool enabled = true;
-  double length = 3.6e-3;              ///< L_e: gas of a marker is multiplied by L_e/dx [m], 1e-5 to 0.1
-  double onset = 0.5;                  ///< smallest remembered relative speed that entrains [m/s], 0 to 10
-  double blockSize = 5e-3;             ///< edge of a gas reservoir [m], 1e-4 to 0.1
-  double medianRadius = 0.75e-3;       ///< lognormal radius distribution: median [m]
-  double sigma = 0.3;                  ///< of ln r [-], 0 to 2
-  double minRadius = 0.375e-3, maxRadius = 1.25e-3;   ///< cut [m]
+  double length = 3.6e-3;         ///< L_e: gas of a marker is multiplied by L_e/dx [m], 1e-5 to 0.1
+  double onset = 0.5;             ///< smallest remembered relative speed that entrains [m/s], 0 to 10
+  double blockSize = 5e-3;        ///< edge of a gas reservoir [m], 1e-4 to 0.1
+  double medianRadius = 0.75e-3;  ///< lognormal radius distribution: median [m]
+  double sigma = 0.3;             ///< of ln r [-], 0 to 2
+  double minRadius = 0.375e-3, maxRadius = 1.25e-3;  ///< cut [m]
 };
 
 struct CouplingSpec {
   EntrainmentSpec entrainment;
-  bool immersedGas = true;             ///< bubbles under the surface raise it
+  bool immersedGas = true;  ///< bubbles under the surface raise it
 };
 
 struct OutputSpec {
   bool liquid = true, bubblesVdb = true, bubblesPly = true, preview = true;
   bool staggeredVelocity = false;
-  int every = 1;                       ///< caches every n-th frame, 1 to 1000
-  int checkpointEvery = 10;            ///< frames between checkpoints, 1 to 10000
+  int every = 1;             ///< caches every n-th frame, 1 to 1000
+  int checkpointEvery = 10;  ///< frames between checkpoints, 1 to 10000
   Eigen::Vector2i previewSize{480, 360};
 };
 
 struct CameraSpec {
-  Eigen::Vector3d eye{0, 0, 0};        ///< [m]; eye == target: placed automatically from the domain
-  Eigen::Vector3d target{0, 0, 0};     ///< [m]
-  double fieldOfView = 35;             ///< vertical [degrees], 5 to 120
+  Eigen::Vector3d eye{0, 0, 0};     ///< [m]; eye == target: placed automatically from the domain
+  Eigen::Vector3d target{0, 0, 0};  ///< [m]
+  double fieldOfView = 35;          ///< vertical [degrees], 5 to 120
 };
 
 /// A scene with every value resolved; `scene_toml.h` reads and writes it.
 struct Scene {
-  std::string name = "scene";          ///< file-name safe
+  std::string name = "scene";  ///< file-name safe
   std::string title;
   std::uint64_t seed = 1;
   DomainSpec domain;

@@ -1,31 +1,20 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "coupling/errors.h"
 #include "coupling/scene.h"
 
 namespace spume::coupling {
 
-/// Wrong content of a scene file. `what()` is one message: file:line:column, the key, its value, the allowed range
-/// with its unit and, for an unknown key, the nearest valid one.
-class SceneError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+/// ("table.key", "TOML value"), or ("array.0.key", ...) for an item that the file holds. A value that is no
+/// TOML is taken as a string, so that shells need no second pair of quotes.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-/// A file that cannot be read or written. `what()` names the path and the system's reason.
-class FileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-using Overrides = std::vector<std::pair<std::string, std::string>>;   ///< ("table.key", "TOML value")
-
-/// Reads a scene file. `overrides` are applied as if written in it (the command line's --set).
-/// Throws SceneError or FileError.
+/// Reads a scene file; where it gives no name, the scene takes the file's. `overrides` are applied as if
+/// written in it (the command line's --set). Throws SceneError or FileError.
 Scene readScene(const std::string& path, const Overrides& overrides = {});
 
 /// The scene with every value written out, as TOML that reads back to the same scene.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "coupling/errors.h"
+#include "coupling/scene.h"
+#include "fluid/liquid_solver.h"
+#include "foam/bubble_store.h"
+
+namespace spume::coupling {
+
+using SignedDistance = std::function<double(const Eigen::Vector3d&)>;
+
+/// The grid of a scene: cubic cells, `resolution` of them along the longest edge; the other edges are rounded
+/// to whole cells (at least 4), the low corner stays.
+fluid::GridSpec gridOf(const Scene& scene);
+
+/// Everything LiquidSolver is built from: grid, walls, solids, inflows. Throws SceneError if an object of the
+/// scene cannot be simulated (see `checkObjects`).
+fluid::LiquidSetup buildLiquidSetup(const Scene& scene);
+
+/// Signed distance [m] to the union of the liquid bodies, < 0 inside; a positive constant if there are none.
+SignedDistance initialPhi(const Scene& scene);
+
+/// Signed distance [m] to the nearest solid object (domain walls not counted), > 0 in free space.
+SignedDistance solidDistance(const Scene& scene);
+
+/// The bubbles a scene starts with, numbered from 0 in the order of the scene.
+foam::BubbleStore initialBubbles(const Scene& scene);
+
+/// Throws SceneError naming the first object that cannot be simulated and the remedy: a degenerate shape, a
+/// name used twice, a body or an inflow outside the domain, an inflow inside a solid or without a cell to
+/// itself, a bubble in a solid.
+void checkObjects(const Scene& scene);
+
+}  // namespace spume::coupling
