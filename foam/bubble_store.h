@@ -11,24 +11,25 @@ enum class BubbleClass : std::uint8_t { liquid = 0, surface = 1, air = 2 };
 
 /// What a new bubble brings with it.
 struct NewBubble {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< [m/s]
-  double radius = 0;                                    ///< [m], > 0
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  double radius = 0;                                   ///< [m], > 0
   BubbleClass type = BubbleClass::liquid;
 };
 
-/// All bubbles as columns of equal length, ordered by id. Ids are 64-bit, start at 0, and are never used twice.
+/// All bubbles as columns of equal length, ordered by id. Ids are 64-bit, start at 0, and are never used
+/// twice.
 struct BubbleStore {
   std::vector<std::uint64_t> id;
-  std::vector<Eigen::Vector3d> position;   ///< [m]
-  std::vector<Eigen::Vector3d> velocity;   ///< [m/s]
-  std::vector<double> radius;              ///< of the ball, corrected to hold the gas [m]
-  std::vector<double> gas;                 ///< V0, the volume the cell must have [m^3]
-  std::vector<double> age;                 ///< since birth [s]
-  std::vector<double> exposure;            ///< integral of the bursting hazard so far [-]
-  std::vector<double> volume;              ///< of the power cell at the last geometry update [m^3]
-  std::vector<double> wetness;             ///< lambda of Eq. 1 [-]
-  std::vector<double> surfaceWeight;       ///< w, 0..1
+  std::vector<Eigen::Vector3d> position;  ///< [m]
+  std::vector<Eigen::Vector3d> velocity;  ///< [m/s]
+  std::vector<double> radius;             ///< of the ball, corrected to hold the gas [m]
+  std::vector<double> gas;                ///< V0, the volume the cell must have [m^3]
+  std::vector<double> age;                ///< since birth [s]
+  std::vector<double> exposure;           ///< integral of the bursting hazard so far [-]
+  std::vector<double> volume;             ///< of the power cell at the last geometry update [m^3]
+  std::vector<double> wetness;            ///< lambda of Eq. 1 [-]
+  std::vector<double> surfaceWeight;      ///< w, 0..1
   std::vector<BubbleClass> type;
   std::vector<std::uint8_t> hidden;        ///< 1: swallowed by another ball, no cell
   std::vector<std::uint8_t> clamped;       ///< 1: radius at its limit 2 r0
