@@ -6,16 +6,33 @@
 
 namespace spume::fluid {
 
-/// The markers of one sign, as columns of equal length. Positions are in cell units from the grid's low corner.
-/// Positive markers live in air (phi > 0), negative ones in the liquid.
+/// The markers of one sign, as columns of equal length. Positions are in cell units from the grid's low
+/// corner. Positive markers live in air (phi > 0), negative ones in the liquid.
 struct MarkerSet {
-  std::vector<float> x, y, z;        ///< position [cells]
-  std::vector<float> radius;         ///< [cells], within markerRadiusMin..markerRadiusMax
-  std::vector<float> gas;            ///< air the marker stands for [m^3]; kept for positive markers only
-  std::vector<float> speed;          ///< largest recent speed relative to the receiving liquid [m/s]; positive only
-  std::vector<std::uint8_t> escaped; ///< 1 while on the wrong side by more than its radius
+  std::vector<float> x, y, z;  ///< position [cells]
+  std::vector<float> radius;   ///< [cells], within markerRadiusMin..markerRadiusMax
+  std::vector<float> gas;      ///< air the marker stands for [m^3]; kept for positive markers only
+  std::vector<float> speed;    ///< largest recent speed relative to the receiving liquid [m/s]; positive only
+  std::vector<std::uint8_t> escaped;  ///< 1 while on the wrong side by more than its radius
 
   std::size_t size() const { return x.size(); }
+
+  /// Calls visit(column) for every column, in the order of declaration.
+  template <typename Visit>
+  void forEachColumn(const Visit& visit) {
+    visit(x), visit(y), visit(z), visit(radius), visit(gas), visit(speed), visit(escaped);
+  }
+  void resize(std::size_t n) {
+    forEachColumn([n](auto& column) { column.resize(n); });
+  }
+  /// Appends a marker with no gas, no remembered speed, on its own side.
+  void append(float px, float py, float pz, float r) {
+    x.push_back(px), y.push_back(py), z.push_back(pz), radius.push_back(r);
+    gas.push_back(0), speed.push_back(0), escaped.push_back(0);
+  }
 };
+
+/// Which side of the surface a set of markers belongs to.
+enum class MarkerSign { negative = -1, positive = 1 };
 
 }  // namespace spume::fluid

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "fluid/dense_field.h"
+#include "fluid/marker_set.h"
+
+namespace spume::fluid {
+
+/// Rebuilds phi from markers that crossed to the wrong side [Enright 2002, Section 3.2].
+class MarkerCorrection {
+ public:
+  /// Each escaped marker offers its sphere to the eight cell centres around it: phi_p(x) = s (r - |x - x_p|);
+  /// phi+ = max over positive markers, phi- = min over negative ones, and the one nearer to zero wins. Sets
+  /// the escaped flags. Ghosts of phi must be filled and are refilled. `dx` in [m].
+  void apply(float dx, MarkerSet& positive, MarkerSet& negative, DenseField<float>& phi);
+
+  /// Markers that offered their sphere in the last call, both signs.
+  std::size_t escapedCount() const { return escapedCount_; }
+
+ private:
+  struct Offer {
+    std::int32_t cell;  ///< offset in phi
+    float plus, minus;  ///< best value of either sign [m]
+  };
+  std::vector<Offer> offers_;
+  std::vector<std::int32_t> slot_;  ///< per point of phi: its offer, -1 for none
+  std::size_t escapedCount_ = 0;
+};
+
+}  // namespace spume::fluid

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "fluid/dense_field.h"
+#include "fluid/liquid_solver.h"
+#include "fluid/marker_particles.h"
+
+namespace spume::fluid {
+
+/// What positive markers remember for entrainment: how much air each stands for, how fast it met the liquid,
+/// and when it is lost under the surface (model, "Coupling", rules 1 to 3).
+class MarkerEscape {
+ public:
+  explicit MarkerEscape(const GridSpec& grid) : count_(grid.cells), air_(grid.cells) {}
+
+  /// Rule 2: while phi > 0 at a positive marker, gas = air volume of its cell / positive markers with phi > 0
+  /// in that cell [m^3]; frozen while the marker is under the surface. Returns the sum of the shares given
+  /// out.
+  double refreshGas(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& positive);
+
+  /// Rule 3: speed = max(speed exp(-dt/speedMemory), |u(x) - u(x_body)|) while phi > 0, and decays below.
+  /// x_body lies kBodyDepth cells under the surface, along -grad phi: the liquid the marker would sink into.
+  void refreshSpeed(const MarkerScene& scene, const DenseField<float>& phi, const MacVelocity& velocity,
+                    double dt, MarkerSet& positive);
+
+  /// Rule 1: positive markers with phi < -r and phi < -escapeDepth dx leave the set; they are appended to
+  /// `escaped` in the order of the set.
+  void releaseEscaped(const MarkerScene& scene, const DenseField<float>& phi, const MacVelocity& velocity,
+                      MarkerSet& positive, std::vector<EscapedMarker>& escaped);
+
+ private:
+  DenseField<std::int32_t> count_;
+  DenseField<float> air_;
+  std::vector<std::int32_t> leaving_;
+};
+
+}  // namespace spume::fluid

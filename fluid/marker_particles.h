@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fluid/dense_field.h"
+#include "fluid/fluid_params.h"
+#include "fluid/grid_spec.h"
+#include "fluid/marker_set.h"
+#include "fluid/solid_boundary.h"
+
+namespace spume::fluid {
+
+/// What every marker operation reads. References only: build one per call.
+struct MarkerScene {
+  const GridSpec& grid;
+  const FluidParams& params;
+  const DomainWalls& walls;
+  const SolidBoundary& solids;
+};
+
+/// Moves markers by dt [s] with the midpoint rule through the staggered velocity (ghosts filled), keeps them
+/// on the free side of walls along grad psi, and marks those that left an open face of the domain or sit deep
+/// in a solid for removal (their x becomes NaN): follow with MarkerSorter::compact.
+void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double dt, MarkerSet& markers);
+
+/// Orders markers by cell and drops those marked for removal. Holds scratch columns.
+class MarkerSorter {
+ public:
+  explicit MarkerSorter(const GridSpec& grid) : cells_(grid.cells) {}
+  /// Drops removed markers; the order of the others stays.
+  void compact(MarkerSet& markers);
+  /// Drops removed markers and sorts the others by cell (x slowest, z fastest), stable inside a cell.
+  void sort(MarkerSet& markers);
+  /// After `sort`: first marker of a cell; cell numbers as `cellNumber`, one past the last is the total.
+  const std::vector<std::int32_t>& cellStart() const { return cellStart_; }
+  /// Number of the cell that holds a position in cell units, clamped to the grid.
+  std::int32_t cellNumber(float x, float y, float z) const;
+
+ private:
+  void permute(MarkerSet& markers);
+
+  Eigen::Vector3i cells_;
+  std::vector<std::int32_t> cellStart_, cellOf_, order_;
+  std::vector<float> column_;
+  std::vector<std::uint8_t> flags_;
+};
+
+/// Sets the radius to |phi| within [markerRadiusMin, markerRadiusMax]; an escaped marker gets the smallest
+/// [Enright 2002, Eq. 11]. Refreshes the escaped flags.
+void adjustRadii(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign, MarkerSet& markers);
+
+/// Brings the number of markers in every cell of the band to markersPerCell times the part of the cell on
+/// their side [Enright 2002, Section 3.3]. Sorts the set, deletes what strayed from the band or is too many,
+/// adds what is missing at random positions keyed by (seed, cell, subStep). Escaped markers are neither
+/// counted nor touched. Called on an empty set it seeds it.
+class MarkerSeeder {
+ public:
+  explicit MarkerSeeder(const GridSpec& grid) : sorter_(grid) {}
+  void reseed(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign, std::int64_t subStep,
+              MarkerSet& markers);
+
+ private:
+  struct Target {
+    std::int32_t cell;
+    std::int32_t wanted;
+  };
+  void removeSurplus(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
+                     MarkerSet& markers);
+  void addMissing(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
+                  std::int64_t subStep, MarkerSet& markers);
+
+  MarkerSorter sorter_;
+  std::vector<std::int32_t> wanted_;   ///< per cell
+  std::vector<std::int32_t> missing_;  ///< per cell
+};
+
+}  // namespace spume::fluid

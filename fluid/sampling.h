@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "fluid/dense_field.h"
+
+namespace spume::fluid {
+
+/// Read-only view of a dense field for loops that sample it at many points. Built once per loop: plain
+/// numbers only, so that a loop over points vectorises into gathers.
+struct FieldView {
+  const float* corner;  ///< value at index (-kGhost, -kGhost, -kGhost)
+  int strideI, strideJ;
+  float highI, highJ, highK;  ///< largest cell base along each axis, counted from `corner`
+
+  explicit FieldView(const DenseField<float>& field)
+      : corner(field.data()),
+        strideI(static_cast<int>(field.stride(0))),
+        strideJ(static_cast<int>(field.stride(1))),
+        highI(static_cast<float>(field.size().x() + 2 * kGhost - 1)),
+        highJ(static_cast<float>(field.size().y() + 2 * kGhost - 1)),
+        highK(static_cast<float>(field.size().z() + 2 * kGhost - 1)) {}
+};
+
+/// A sampling point split into the offset of its cell base and the three fractions in [0, 1].
+struct CellBase {
+  int offset;
+  float fx, fy, fz;
+};
+
+/// Splits a point in index units (the value with index i lives at i), clamped to the window with its ghosts.
+inline CellBase cellBase(const FieldView& f, float x, float y, float z) {
+  const float xs = std::min(std::max(x + kGhost, 0.0f), f.highI);
+  const float ys = std::min(std::max(y + kGhost, 0.0f), f.highJ);
+  const float zs = std::min(std::max(z + kGhost, 0.0f), f.highK);
+  const int i = static_cast<int>(std::min(xs, f.highI - 1));
+  const int j = static_cast<int>(std::min(ys, f.highJ - 1));
+  const int k = static_cast<int>(std::min(zs, f.highK - 1));
+  return {i * f.strideI + j * f.strideJ + k, xs - static_cast<float>(i), ys - static_cast<float>(j),
+          zs - static_cast<float>(k)};
+}
+
+inline float lerp(float a, float b, float t) { return a + t * (b - a); }
+
+/// Trilinear value at a point in index units.
+inline float sampleIndex(const FieldView& f, float x, float y, float z) {
+  const CellBase b = cellBase(f, x, y, z);
+  const float* p = f.corner;
+  const int o = b.offset, si = f.strideI, sj = f.strideJ;
+  const float c00 = lerp(p[o], p[o + 1], b.fz);
+  const float c01 = lerp(p[o + sj], p[o + sj + 1], b.fz);
+  const float c10 = lerp(p[o + si], p[o + si + 1], b.fz);
+  const float c11 = lerp(p[o + si + sj], p[o + si + sj + 1], b.fz);
+  return lerp(lerp(c00, c01, b.fy), lerp(c10, c11, b.fy), b.fx);
+}
+
+/// Trilinear value of a cell-centred field at a position in cell units.
+inline float sampleCentred(const FieldView& f, float x, float y, float z) {
+  return sampleIndex(f, x - 0.5f, y - 0.5f, z - 0.5f);
+}
+
+/// Trilinear value of a cell-centred field and its gradient per cell at a position in cell units.
+struct ValueAndGradient {
+  float value, gx, gy, gz;
+};
+inline ValueAndGradient sampleCentredGradient(const FieldView& f, float x, float y, float z) {
+  const CellBase b = cellBase(f, x - 0.5f, y - 0.5f, z - 0.5f);
+  const float* p = f.corner;
+  const int o = b.offset, si = f.strideI, sj = f.strideJ;
+  const float v000 = p[o], v001 = p[o + 1], v010 = p[o + sj], v011 = p[o + sj + 1];
+  const float v100 = p[o + si], v101 = p[o + si + 1], v110 = p[o + si + sj], v111 = p[o + si + sj + 1];
+  const float c00 = lerp(v000, v001, b.fz), c01 = lerp(v010, v011, b.fz);
+  const float c10 = lerp(v100, v101, b.fz), c11 = lerp(v110, v111, b.fz);
+  const float c0 = lerp(c00, c01, b.fy), c1 = lerp(c10, c11, b.fy);
+  const float d0 = lerp(v001 - v000, v011 - v010, b.fy), d1 = lerp(v101 - v100, v111 - v110, b.fy);
+  return {lerp(c0, c1, b.fx), c1 - c0, lerp(c01 - c00, c11 - c10, b.fx), lerp(d0, d1, b.fx)};
+}
+
+/// View of a staggered velocity.
+struct MacView {
+  FieldView u, v, w;
+  explicit MacView(const MacVelocity& velocity) : u(velocity[0]), v(velocity[1]), w(velocity[2]) {}
+};
+
+struct Velocity3f {
+  float x, y, z;
+};
+
+/// Velocity [m/s] at a position in cell units, each component trilinear on its own faces.
+inline Velocity3f sampleVelocity(const MacView& m, float x, float y, float z) {
+  return {sampleIndex(m.u, x, y - 0.5f, z - 0.5f), sampleIndex(m.v, x - 0.5f, y, z - 0.5f),
+          sampleIndex(m.w, x - 0.5f, y - 0.5f, z)};
+}
+
+}  // namespace spume::fluid
