@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fluid/fluid_params.h"
+#include "fluid/inflow.h"
 #include "fluid/liquid_state.h"
 #include "fluid/solid_boundary.h"
 

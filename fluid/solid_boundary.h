@@ -17,18 +17,8 @@ namespace spume::fluid {
 struct SolidObject {
   std::string name;
   std::function<double(const Eigen::Vector3d& x, double t)> psi;
-  std::function<Eigen::Vector3d(const Eigen::Vector3d& x, double t)> velocity;   ///< empty: at rest
+  std::function<Eigen::Vector3d(const Eigen::Vector3d& x, double t)> velocity;  ///< empty: at rest
   bool moves = false;
-};
-
-/// A region that pours liquid in: inside it phi < 0 and the liquid moves with `velocity`.
-struct Inflow {
-  std::string name;
-  std::function<double(const Eigen::Vector3d& x)> sdf;   ///< < 0 inside the region [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();     ///< [m/s]
-  double area = 0;                                        ///< true area of the outlet [m^2]; flux is exactly |velocity| area
-  std::function<double(double t)> scale;                  ///< multiplies the velocity; 0 = closed. Empty: always 1
-  double turbulence = 0;                                  ///< rms relative fluctuation of the axial speed, 0 to 0.5
 };
 
 /// Which of the six domain faces are walls (the others are open to the air). Order: -x +x -y +y -z +z.
@@ -36,25 +26,47 @@ struct DomainWalls {
   std::array<bool, 6> closed{true, true, true, false, true, true};
 };
 
-/// Solids as the solver sees them on the grid [Batty et al. 2007]. A face of which only the fraction f is open
-/// carries the flux f u + (1 - f) uSolid.
-struct SolidBoundary {
-  DenseField<float> psi;             ///< distance to the nearest solid or closed wall at cell centres [m], > 0 in free space
-  DenseField<std::int16_t> object;   ///< nearest solid per cell: index into the objects, -1 for a domain wall
-  MacField<float> open;              ///< fraction of each face in free space, 0..1
-  MacField<float> velocity;          ///< normal velocity of the solid or inflow at each face [m/s]
-  MacField<std::uint8_t> prescribed; ///< 1 where an inflow sets the face velocity
+/// Open fractions below this count as closed: slivers would carry flux no cell can balance well, and their
+/// weight in the pressure matrix only worsens its condition. A thousandth of a face is far below the error of
+/// the cut [-].
+inline constexpr float kMinOpenFraction = 1e-3f;
 
-  /// Fluid volume fraction of each cell, 0..1, of the free space (not of the liquid).
-  DenseField<float> cellFraction;
+/// Solids as the solver sees them on the grid [Batty et al. 2007]. A face of which only the fraction f is
+/// open carries the flux f u + (1 - f) uSolid. Boundary faces of closed domain walls have open = 0; those of
+/// open ones open = 1 (less what a solid covers), with air at p = 0 outside.
+struct SolidBoundary {
+  DomainWalls walls;
+  DenseField<float> psi;  ///< distance to the nearest solid or closed wall at cell centres [m], ghosts
+                          ///< included, > 0 in free space
+  DenseField<std::int16_t>
+      object;            ///< nearest solid per cell: index into the objects, -1 for a domain wall or none
+  MacField<float> open;  ///< fraction of each face in free space, 0 or kMinOpenFraction..1
+  MacField<float>
+      velocity;  ///< normal velocity of the solid or inflow at each face that is not fully open [m/s]
+  MacField<std::uint8_t> prescribed;  ///< 1 where an inflow sets the face velocity (open is 0 there)
+  DenseField<float>
+      cellFraction;  ///< free-space volume fraction of each cell, 0..1 (of the space, not the liquid)
+
+  DenseField<float> nodePsi;  ///< distance to the nearest solid at cell corners [m]; domain walls left out
+  DenseField<float> restNodePsi;  ///< the same of the solids at rest alone: what an update starts from
+  DenseField<float> restPsi;      ///< psi of walls and solids at rest alone [m]
+  DenseField<std::int16_t> restObject;
+
+  /// True if some liquid could be in cell (i, j, k): one of its faces lets flow through.
+  bool hasOpenFace(int i, int j, int k) const {
+    return open[0](i, j, k) > 0 || open[0](i + 1, j, k) > 0 || open[1](i, j, k) > 0 ||
+           open[1](i, j + 1, k) > 0 || open[2](i, j, k) > 0 || open[2](i, j, k + 1) > 0;
+  }
 };
 
-/// Builds the boundary at time t. Nodes are sampled so that a wall is found at any sub-cell position.
+/// Builds the boundary at time t. Corners are sampled, so that a wall at least one cell thick is found at any
+/// sub-cell position; fractions are exact for the linear interpolant of the corner values.
 SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
                                  const std::vector<SolidObject>& solids, double t);
 
-/// Re-evaluates only what moves, in place.
-void updateSolidBoundary(const GridSpec& grid, const DomainWalls& walls, const std::vector<SolidObject>& solids,
-                         double t, SolidBoundary& boundary);
+/// Re-evaluates the moving solids at time t, in place; does nothing where none moves. Faces it rewrites lose
+/// their `prescribed` mark: stamp the inflows afterwards.
+void updateSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
+                         const std::vector<SolidObject>& solids, double t, SolidBoundary& boundary);
 
 }  // namespace spume::fluid

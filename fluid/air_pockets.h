@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "fluid/connected_cells.h"
+#include "fluid/dense_field.h"
+#include "fluid/grid_spec.h"
+#include "fluid/solid_boundary.h"
+
+namespace spume::fluid {
+
+/// Pockets of at most this many cells are filled with liquid: the grid cannot keep them (model, Section 4
+/// rule 5).
+inline constexpr int kLargestFilledPocket = 4;
+
+/// A connected set of air cells (phi >= 0) that does not reach an open domain boundary.
+struct AirPocket {
+  int cells = 0;
+  double gas = 0;                                      ///< its air volume [m^3]
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// A pocket that was filled.
+struct FilledPocket {
+  AirPocket pocket;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< mean of its faces [m/s]
+  std::vector<Eigen::Vector3i> cells;
+};
+
+/// The closed air pockets of the grid.
+class AirPockets {
+ public:
+  /// Labels them. A domain without any open boundary has closed pockets only.
+  void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+
+  /// Fills the small ones: phi becomes negative there. Returns all of them in the order of their first cells;
+  /// those of one cell are marker noise and give no bubble. The largest pocket of a domain without open
+  /// boundary is its headspace and stays whatever its size. `find` is called first and the labels stay valid
+  /// after.
+  std::vector<FilledPocket> fillSmall(const GridSpec& grid, const SolidBoundary& boundary,
+                                      const MacVelocity& velocity, DenseField<float>& phi);
+
+  /// Pocket of each cell, -1 in liquid, solid and open air.
+  const DenseField<std::int32_t>& label() const { return pocketLabel_; }
+  const std::vector<AirPocket>& pockets() const { return pockets_; }
+
+ private:
+  ConnectedCells connected_;
+  DenseField<std::int32_t> label_, pocketLabel_;
+  std::vector<AirPocket> pockets_;
+};
+
+}  // namespace spume::fluid

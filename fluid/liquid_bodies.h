@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fluid/connected_cells.h"
+#include "fluid/dense_field.h"
+#include "fluid/grid_spec.h"
+#include "fluid/solid_boundary.h"
+
+namespace spume::fluid {
+
+/// A maximal set of liquid cells (phi < 0) joined by open faces.
+struct LiquidBody {
+  std::ptrdiff_t cells = 0;
+  double volume = 0;  ///< of the liquid, cells cut by the surface counted in part [m^3]
+  double room = 0;    ///< free-space volume of its cells [m^3]
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< mean of its cell centres [m]
+  bool touchesAir = false;                             ///< false: its pressure is known up to a constant only
+};
+
+/// The connected bodies of the liquid, numbered in the order of their first cells (i slowest, k fastest).
+struct LiquidBodies {
+  DenseField<std::int32_t> label;  ///< body of each cell, -1 outside the liquid
+  std::vector<LiquidBody> bodies;
+  double volume = 0;  ///< of all liquid, fragments without a cell centre included [m^3]
+
+  /// Keeps its arrays between calls. Liquid in cells without an open face (inside solids) is not counted.
+  void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+
+ private:
+  ConnectedCells connected_;
+  void measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+};
+
+/// Volume fraction of cell (i, j, k) with phi < 0, exact for a plane: phi is taken linear in the cell [-].
+double liquidFraction(const DenseField<float>& phi, int i, int j, int k);
+
+/// Liquid volume of the whole grid: sum of liquidFraction x cellFraction x dx^3 [m^3].
+double liquidVolume(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+
+}  // namespace spume::fluid

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "fluid/dense_field.h"
+#include "fluid/fluid_params.h"
+#include "fluid/grid_spec.h"
+#include "fluid/liquid_bodies.h"
+#include "fluid/solid_boundary.h"
+
+namespace spume::fluid {
+
+struct ProjectionReport {
+  int iterations = 0;
+  double residual = 0;      ///< of the solve, relative to the right-hand side without hydrostatic part [-]
+  double divergence = 0;    ///< largest |div u - source| dx in liquid cells after rounding to float [m/s]
+  double incompatible = 0;  ///< largest mean |div u - source| dx an airless body had to be given up [m/s]
+};
+
+/// Makes the velocity of the liquid divergence-free, or of the given divergence, and adds gravity:
+/// u = u* + dt g - (dt/rho) grad p on every face that borders a liquid cell, summed in double and rounded
+/// once. Free surface at p = 0 by the ghost-fluid method, second order [Enright et al. 2003]; solids by face
+/// fractions [Batty et al. 2007]; airless bodies have p of mean 0 and their right-hand side made compatible.
+class Projection {
+ public:
+  Projection(const GridSpec& grid, const FluidParams& params);
+  ~Projection();
+  Projection(Projection&&) noexcept;
+
+  /// `velocity` in: advected, without gravity; out: projected on valid() faces, the others untouched.
+  /// `divergenceSource`: volume created per cell volume and time [1/s]. `pressureGradient` out: on valid
+  /// faces [Pa/m], 0 elsewhere. `bodies` found from the same phi and boundary. Throws NumericalFailure if the
+  /// solve does not reach the tolerance, and then velocity and pressureGradient are as before.
+  ProjectionReport project(const DenseField<float>& phi, const SolidBoundary& boundary,
+                           const LiquidBodies& bodies, double dt, const DenseField<float>& divergenceSource,
+                           MacVelocity& velocity, MacField<float>& pressureGradient);
+
+  /// 1 on faces whose velocity the last project() set or that an inflow or a closed domain wall prescribes
+  /// beside liquid: where extrapolation starts from.
+  const MacField<std::uint8_t>& valid() const;
+
+  /// Pressure of the last project() in liquid cells, 0 elsewhere [Pa].
+  const DenseField<float>& pressure() const;
+
+ private:
+  struct Internals;
+  std::unique_ptr<Internals> internals_;
+};
+
+}  // namespace spume::fluid

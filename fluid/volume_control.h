@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "fluid/dense_field.h"
+#include "fluid/fluid_params.h"
+#include "fluid/grid_spec.h"
+#include "fluid/inflow.h"
+#include "fluid/liquid_bodies.h"
+#include "fluid/solid_boundary.h"
+
+namespace spume::fluid {
+
+struct ImmersedGas;
+
+/// What volume control must remember between sub-steps: with the phi of the same moment an exact checkpoint.
+struct VolumeLedger {
+  std::vector<double>
+      target;  ///< liquid each body should hold, in the order of LiquidBodies, without bubble gas [m^3]
+  double unassigned = 0;  ///< target of bodies that vanished while no other was left [m^3]
+
+  double total() const;  ///< initial + poured - drained [m^3]
+};
+
+/// Holds every connected body at poured + initial - drained + the gas of its immersed bubbles by a source of
+/// divergence [Kim et al. 2007]. Between two sub-steps bodies merge, split, appear and vanish; bodies that
+/// exchange cells form a group, whose targets are summed and dealt out again so that every body of the group
+/// has the same relative error. The sum of all targets changes by what is poured and drained only. Per
+/// sub-step: bookOutflow (before phi is advected) -> ... -> update -> addSource.
+class VolumeControl {
+ public:
+  VolumeControl(const GridSpec& grid, const FluidParams& params);
+
+  /// Starts with every body of `bodies` at its target.
+  void start(const LiquidBodies& bodies);
+  /// Continues from a checkpoint: `bodies` found from the phi the ledger belongs to. Throws InvalidParameter
+  /// if their numbers differ.
+  void resume(const LiquidBodies& bodies, VolumeLedger ledger);
+
+  /// Subtracts what `velocity` carries out of the domain through its open boundaries in dt; returns it [m^3].
+  double bookOutflow(const DenseField<float>& phi, const SolidBoundary& boundary, const MacVelocity& velocity,
+                     double dt);
+
+  /// Moves the targets from the bodies of the last call to `bodies`, adds what was poured, finds each
+  /// bubble's body. `velocity` carried the liquid over the dt [s] between the two.
+  void update(const LiquidBodies& bodies, const MacVelocity& velocity, double dt,
+              const std::vector<PouredVolume>& poured, const ImmersedGas& gas);
+
+  /// Adds to `divergenceSource` [1/s] the rate that removes each body's error with the relaxation time of the
+  /// params. Zero for a body whose error is below kVolumeDeadband.
+  void addSource(const LiquidBodies& bodies, const SolidBoundary& boundary, double dt,
+                 DenseField<float>& divergenceSource) const;
+
+  const VolumeLedger& ledger() const { return ledger_; }
+  /// Volume the grid liquid should have now: the ledger's total and the immersed gas [m^3].
+  double targetVolume() const;
+
+ private:
+  GridSpec grid_;
+  FluidParams params_;
+  VolumeLedger ledger_;
+  DenseField<std::int32_t> lastLabel_;
+  std::vector<LiquidBody> lastBodies_;
+  std::vector<double> gas_;  // immersed gas of each body [m^3]
+};
+
+}  // namespace spume::fluid
