@@ -1,0 +1,273 @@
+#include "coupling/simulation.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "coupling/scene_builder.h"
+#include "coupling/time_step.h"
+#include "coupling/vdb_liquid_sampler.h"
+#include "fluid/errors.h"
+#include "foam/classification.h"
+#include "foam/errors.h"
+
+namespace spume::coupling {
+namespace {
+
+/// A step that keeps failing at a sixteenth of its length will not be saved by a smaller one.
+constexpr int kMaxHalvings = 4;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+Event birthEvent(const Birth& birth, std::uint64_t id, double gas, double time) {
+  Event event{Event::Kind::birth, time, id};
+  event.cause = birth.cause;
+  event.position = birth.bubble.position;
+  event.radius = birth.bubble.radius;
+  event.gas = gas;
+  event.from = event.to = birth.bubble.type;
+  return event;
+}
+
+Event foamEvent(const foam::FoamEvent& happened, double time) {
+  constexpr Event::Kind kKinds[] = {Event::Kind::burst, Event::Kind::merge, Event::Kind::classChange};
+  Event event{kKinds[static_cast<int>(happened.kind)], time, happened.id, happened.other};
+  event.position = happened.position;
+  event.radius = happened.radius;
+  event.gas = happened.gas;
+  event.age = happened.age;
+  event.from = happened.from;
+  event.to = happened.to;
+  return event;
+}
+
+}  // namespace
+
+struct Simulation::Internals {
+  Internals(const Scene& s, fluid::LiquidSolver&& solver)
+      : scene(s), liquid(std::move(solver)), foam(s.foam), entrainment(s.coupling.entrainment, s.dx(), s.seed) {}
+
+  const Scene scene;
+  fluid::LiquidSolver liquid;
+  foam::FoamSolver foam;
+  Entrainment entrainment;
+
+  foam::BubbleStore bubbles;
+  Reservoirs reservoirs;
+  GasLedger gas;
+  int frame = 0, steps = 0;
+  double time = 0, initialVolume = 0, poured = 0, drained = 0;
+
+  StepReport attempt(double dt);
+  void stepLiquid(double dt, StepReport& report);
+  void entrain(StepReport& report);
+  void stepFoam(double dt, StepReport& report);
+  void removeLeavers(StepReport& report);
+  void book(double dt, StepReport& report);
+
+  double frameEnd() const { return (frame + 1) / scene.time.fps; }
+  double nextDt(double remaining) const {
+    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), foam.stableDt(bubbles), remaining);
+  }
+  GridLiquidSampler sampler() const { return {liquid.state(), liquid.solids()}; }
+  fluid::ImmersedGas immersedGas() const;
+};
+
+fluid::ImmersedGas Simulation::Internals::immersedGas() const {
+  fluid::ImmersedGas immersed;
+  if (!scene.coupling.immersedGas || bubbles.size() == 0) return immersed;
+  Eigen::VectorXd phi(bubbles.size());
+  sampler().phi(bubbles.positions(), phi);
+  for (std::size_t b = 0; b < bubbles.size(); ++b) {
+    const double fraction = foam::immersedFraction(phi[b], bubbles.radius[b]);
+    if (fraction <= 0) continue;
+    immersed.position.push_back(bubbles.position[b]);
+    immersed.volume.push_back(fraction * bubbles.gas[b]);
+  }
+  return immersed;
+}
+
+void Simulation::Internals::stepLiquid(double dt, StepReport& report) {
+  const Stopwatch watch;
+  const fluid::ImmersedGas immersed = immersedGas();
+  for (const double volume : immersed.volume) report.immersedGas += volume;
+  report.liquid = liquid.step(dt, immersed);
+  report.secondsLiquid = watch.seconds();
+}
+
+void Simulation::Internals::entrain(StepReport& report) {
+  const Stopwatch watch;
+  const auto escaped = liquid.takeEscaped();
+  const auto pockets = liquid.takeCollapsedPockets();
+  if (scene.coupling.entrainment.enabled) {
+    for (const Birth& birth : entrainment.step(escaped, pockets, reservoirs, gas)) {
+      const std::uint64_t id = bubbles.add(birth.bubble);
+      report.events.push_back(birthEvent(birth, id, bubbles.gas.back(), report.time));
+      ++report.births;
+    }
+  }
+  report.secondsEntrainment = watch.seconds();
+}
+
+void Simulation::Internals::stepFoam(double dt, StepReport& report) {
+  const Stopwatch watch;
+  const GridLiquidSampler fields = sampler();
+  report.foam = foam.step(bubbles, fields, dt);
+  gas.burst += report.foam.gasBurst;
+  for (const foam::FoamEvent& happened : report.foam.events) {
+    report.events.push_back(foamEvent(happened, report.time));
+    if (happened.kind == foam::FoamEventKind::burst) ++report.bursts;
+  }
+  report.foam.events.clear();
+  report.secondsFoam = watch.seconds();
+}
+
+void Simulation::Internals::removeLeavers(StepReport& report) {
+  const Eigen::Vector3d lower = scene.domain.lower, upper = lower + scene.domain.size;
+  std::vector<std::uint8_t> gone(bubbles.size(), 0);
+  bool any = false;
+  for (std::size_t b = 0; b < bubbles.size(); ++b) {
+    const double r = bubbles.radius[b];
+    const Eigen::Vector3d& x = bubbles.position[b];
+    if ((x.array() > lower.array() - r).all() && (x.array() < upper.array() + r).all()) continue;
+    gone[b] = 1;
+    any = true;
+    gas.left += bubbles.gas[b];
+    Event event{Event::Kind::leave, report.time, bubbles.id[b]};
+    event.position = x;
+    event.radius = r;
+    event.gas = bubbles.gas[b];
+    event.age = bubbles.age[b];
+    event.from = event.to = bubbles.type[b];
+    report.events.push_back(event);
+  }
+  if (any) bubbles.remove(gone);
+}
+
+void Simulation::Internals::book(double dt, StepReport& report) {
+  gas.inBubbles = 0;
+  for (const double g : bubbles.gas) gas.inBubbles += g;
+  poured += report.liquid.poured;
+  drained += report.liquid.drained;
+  time += dt;
+  ++steps;
+  report.gas = gas;
+  report.poured = poured;
+  report.drained = drained;
+}
+
+StepReport Simulation::Internals::attempt(double dt) {
+  StepReport report;
+  report.step = steps + 1;
+  report.dt = dt;
+  report.time = time + dt;
+  stepLiquid(dt, report);
+  entrain(report);
+  stepFoam(dt, report);
+  removeLeavers(report);
+  book(dt, report);
+  return report;
+}
+
+Simulation::Simulation(const Scene& scene)
+    : internals_(std::make_unique<Internals>(
+          scene, fluid::LiquidSolver(scene.liquid, buildLiquidSetup(scene), initialPhi(scene)))) {
+  for (const foam::NewBubble& bubble : scene.bubbles) {
+    internals_->bubbles.add(bubble);
+    internals_->gas.bornSources += internals_->bubbles.gas.back();
+  }
+  internals_->gas.inBubbles = internals_->gas.bornSources;
+  internals_->initialVolume = internals_->liquid.liquidVolume();
+}
+
+Simulation::Simulation(const Scene& scene, SimulationState state)
+    : internals_(std::make_unique<Internals>(
+          scene, fluid::LiquidSolver(scene.liquid, buildLiquidSetup(scene), std::move(state.liquid)))) {
+  Internals& in = *internals_;
+  in.bubbles = std::move(state.bubbles);
+  in.reservoirs = std::move(state.reservoirs);
+  in.gas = state.gas;
+  in.frame = state.frame;
+  in.steps = state.step;
+  in.time = state.time;
+  in.initialVolume = state.initialVolume;
+  in.poured = state.poured;
+  in.drained = state.drained;
+}
+
+Simulation::~Simulation() = default;
+
+StepReport Simulation::step(double dt) {
+  Internals& in = *internals_;
+  const foam::BubbleStore bubbles = in.bubbles;
+  const Reservoirs reservoirs = in.reservoirs;
+  const GasLedger gas = in.gas;
+  for (int halvings = 0;; ++halvings) {
+    try {
+      StepReport report = in.attempt(dt);
+      report.halvings = halvings;
+      return report;
+    } catch (const fluid::NumericalFailure&) {
+      if (halvings == kMaxHalvings) throw;
+    } catch (const foam::NumericalFailure&) {
+      in.liquid.rollBack();
+      in.bubbles = bubbles;
+      in.reservoirs = reservoirs;
+      in.gas = gas;
+      if (halvings == kMaxHalvings) throw;
+    }
+    dt /= 2;
+  }
+}
+
+FrameReport Simulation::advanceFrame(const std::function<void(const StepReport&)>& onStep) {
+  const Stopwatch watch;
+  Internals& in = *internals_;
+  FrameReport report;
+  const double end = in.frameEnd();
+  // The last step of a frame may miss its end by round-off only; the clock is then set to the frame's exact time.
+  const double kRoundOff = 1e-12 * end;
+  while (end - in.time > kRoundOff) {
+    const double remaining = end - in.time;
+    report.steps.push_back(step(std::min(remaining, in.nextDt(remaining))));
+    if (onStep) onStep(report.steps.back());
+  }
+  in.time = end;
+  report.frame = ++in.frame;
+  report.time = end;
+  report.seconds = watch.seconds();
+  return report;
+}
+
+SimulationState Simulation::state() const {
+  const Internals& in = *internals_;
+  SimulationState state;
+  state.frame = in.frame;
+  state.step = in.steps;
+  state.time = in.time;
+  state.liquid = in.liquid.state();
+  state.bubbles = in.bubbles;
+  state.reservoirs = in.reservoirs;
+  state.gas = in.gas;
+  state.initialVolume = in.initialVolume;
+  state.poured = in.poured;
+  state.drained = in.drained;
+  return state;
+}
+
+int Simulation::frame() const { return internals_->frame; }
+double Simulation::time() const { return internals_->time; }
+const Scene& Simulation::scene() const { return internals_->scene; }
+const fluid::LiquidState& Simulation::liquid() const { return internals_->liquid.state(); }
+const fluid::SolidBoundary& Simulation::solids() const { return internals_->liquid.solids(); }
+const foam::BubbleStore& Simulation::bubbles() const { return internals_->bubbles; }
+const foam::FoamTopology& Simulation::topology() const { return internals_->foam.topology(); }
+
+}  // namespace spume::coupling
