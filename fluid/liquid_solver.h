@@ -86,6 +86,8 @@ class LiquidSolver {
   /// Largest dt [s] that one step takes in at most `maxSubSteps` sub-steps at the present velocities.
   double stableDt(int maxSubSteps = 1) const;
 
+  /// Volume of the grid liquid now, immersed bubbles included [m^3].
+  double liquidVolume() const;
   const LiquidState& state() const;
   const SolidBoundary& solids() const;
   const FluidParams& params() const;

@@ -5,6 +5,7 @@
 #include "fluid/dense_field.h"
 #include "fluid/grid_spec.h"
 #include "fluid/marker_set.h"
+#include "fluid/volume_ledger.h"
 
 namespace spume::fluid {
 
@@ -18,6 +19,7 @@ struct LiquidState {
   MacVelocity velocity;              ///< [m/s], extrapolated into air and solids
   MacField<float> pressureGradient;  ///< of the last projection on faces [Pa/m]; 0 away from the liquid
   MarkerSet positive, negative;
+  VolumeLedger volume;               ///< what each connected body should hold
 };
 
 }  // namespace spume::fluid

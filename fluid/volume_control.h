@@ -10,19 +10,11 @@
 #include "fluid/inflow.h"
 #include "fluid/liquid_bodies.h"
 #include "fluid/solid_boundary.h"
+#include "fluid/volume_ledger.h"
 
 namespace spume::fluid {
 
 struct ImmersedGas;
-
-/// What volume control must remember between sub-steps: with the phi of the same moment an exact checkpoint.
-struct VolumeLedger {
-  std::vector<double>
-      target;  ///< liquid each body should hold, in the order of LiquidBodies, without bubble gas [m^3]
-  double unassigned = 0;  ///< target of bodies that vanished while no other was left [m^3]
-
-  double total() const;  ///< initial + poured - drained [m^3]
-};
 
 /// Holds every connected body at poured + initial - drained + the gas of its immersed bubbles by a source of
 /// divergence [Kim et al. 2007]. Between two sub-steps bodies merge, split, appear and vanish; bodies that

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <numeric>
+#include <vector>
+
+namespace spume::fluid {
+
+/// What volume control must remember between sub-steps: with the phi of the same moment an exact checkpoint.
+struct VolumeLedger {
+  std::vector<double>
+      target;  ///< liquid each body should hold, in the order of LiquidBodies, without bubble gas [m^3]
+  double unassigned = 0;  ///< target of bodies that vanished while no other was left [m^3]
+
+  /// Initial + poured - drained [m^3].
+  double total() const { return std::accumulate(target.begin(), target.end(), unassigned); }
+};
+
+}  // namespace spume::fluid
