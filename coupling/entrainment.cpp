@@ -58,16 +58,17 @@ void Entrainment::payBubbles(const Leaver& leaver, const BlockIndex& block, Rese
     // Several bubbles paid by one leaver must not start at one point.
     foam::CounterRandom random(seed_ ^ blockKey(block), reservoir.draws, kPlacePurpose);
     const Eigen::Vector3d offset(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
-    births.push_back({{leaver.position + leaver.spread * offset, leaver.velocity, radius, foam::BubbleClass::liquid},
-                      leaver.cause});
+    births.push_back(
+        {{leaver.position + leaver.spread * offset, leaver.velocity, radius, foam::BubbleClass::liquid},
+         leaver.cause});
     reservoir.gas -= ballVolume(radius);
     ++reservoir.draws;
   }
 }
 
 std::vector<Birth> Entrainment::step(const std::vector<fluid::EscapedMarker>& escaped,
-                                     const std::vector<fluid::CollapsedPocket>& pockets, Reservoirs& reservoirs,
-                                     GasLedger& ledger) const {
+                                     const std::vector<fluid::CollapsedPocket>& pockets,
+                                     Reservoirs& reservoirs, GasLedger& ledger) const {
   // The captured film is as thick as a cell; L_e/dx makes it as thick as L_e at every resolution (rule 2).
   const double filmScale = spec_.length / dx_;
   std::vector<Birth> births;
@@ -77,14 +78,16 @@ std::vector<Birth> Entrainment::step(const std::vector<fluid::EscapedMarker>& es
       return;
     }
     const Eigen::Array3d cell = (leaver.position / spec_.blockSize).array().floor();
-    const BlockIndex block{static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z())};
+    const BlockIndex block{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
+                           static_cast<int>(cell.z())};
     Reservoir& reservoir = reservoirs[block];
     reservoir.gas += leaver.gas;
     born += leaver.gas;
     payBubbles(leaver, block, reservoir, births);
   };
   for (const auto& marker : escaped)
-    pay({marker.position, marker.velocity, marker.gas * filmScale, marker.speed, 0.5 * dx_, BirthCause::marker},
+    pay({marker.position, marker.velocity, marker.gas * filmScale, marker.speed, 0.5 * dx_,
+         BirthCause::marker},
         ledger.bornMarkers);
   for (const auto& pocket : pockets)
     pay({pocket.position, pocket.velocity, pocket.gas * filmScale, pocket.speed, dx_, BirthCause::pocket},

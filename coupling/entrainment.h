@@ -15,21 +15,21 @@ namespace spume::coupling {
 
 /// Gas waiting in one block of space for the next bubble it can pay.
 struct Reservoir {
-  double gas = 0;             ///< [m^3]
-  std::uint64_t draws = 0;    ///< radii drawn so far; keys the next one
+  double gas = 0;           ///< [m^3]
+  std::uint64_t draws = 0;  ///< radii drawn so far; keys the next one
 };
 
 using BlockIndex = std::array<int, 3>;
-using Reservoirs = std::map<BlockIndex, Reservoir>;   ///< ordered, so that a run does not depend on hashing
+using Reservoirs = std::map<BlockIndex, Reservoir>;  ///< ordered, so that a run does not depend on hashing
 
 struct Birth {
   foam::NewBubble bubble;
   BirthCause cause;
 };
 
-/// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes from
-/// the markers that left the set, the sizes from the scene's distribution, so neither depends on dx, dt or the
-/// number of markers.
+/// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes
+/// from the markers that left the set, the sizes from the scene's distribution, so neither depends on dx, dt
+/// or the number of markers.
 class Entrainment {
  public:
   /// `dx` is the liquid's cell edge [m].
@@ -46,7 +46,8 @@ class Entrainment {
 
  private:
   struct Leaver;
-  void payBubbles(const Leaver& leaver, const BlockIndex& block, Reservoir& reservoir, std::vector<Birth>& births) const;
+  void payBubbles(const Leaver& leaver, const BlockIndex& block, Reservoir& reservoir,
+                  std::vector<Birth>& births) const;
 
   EntrainmentSpec spec_;
   double dx_;

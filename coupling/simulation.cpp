@@ -52,7 +52,10 @@ Event foamEvent(const foam::FoamEvent& happened, double time) {
 
 struct Simulation::Internals {
   Internals(const Scene& s, fluid::LiquidSolver&& solver)
-      : scene(s), liquid(std::move(solver)), foam(s.foam), entrainment(s.coupling.entrainment, s.dx(), s.seed) {}
+      : scene(s),
+        liquid(std::move(solver)),
+        foam(s.foam),
+        entrainment(s.coupling.entrainment, s.dx(), s.seed) {}
 
   const Scene scene;
   fluid::LiquidSolver liquid;
@@ -74,9 +77,10 @@ struct Simulation::Internals {
 
   double frameEnd() const { return (frame + 1) / scene.time.fps; }
   double nextDt(double remaining) const {
-    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), foam.stableDt(bubbles), remaining);
+    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), foam.stableDt(bubbles),
+                          remaining);
   }
-  GridLiquidSampler sampler() const { return {liquid.state(), liquid.solids()}; }
+  VdbLiquidSampler sampler() const { return {liquid.state(), liquid.solids()}; }
   fluid::ImmersedGas immersedGas() const;
 };
 
@@ -118,7 +122,7 @@ void Simulation::Internals::entrain(StepReport& report) {
 
 void Simulation::Internals::stepFoam(double dt, StepReport& report) {
   const Stopwatch watch;
-  const GridLiquidSampler fields = sampler();
+  const VdbLiquidSampler fields = sampler();
   report.foam = foam.step(bubbles, fields, dt);
   gas.burst += report.foam.gasBurst;
   for (const foam::FoamEvent& happened : report.foam.events) {
@@ -232,7 +236,8 @@ FrameReport Simulation::advanceFrame(const std::function<void(const StepReport&)
   Internals& in = *internals_;
   FrameReport report;
   const double end = in.frameEnd();
-  // The last step of a frame may miss its end by round-off only; the clock is then set to the frame's exact time.
+  // The last step of a frame may miss its end by round-off only; the clock is then set to the frame's exact
+  // time.
   const double kRoundOff = 1e-12 * end;
   while (end - in.time > kRoundOff) {
     const double remaining = end - in.time;

@@ -17,9 +17,9 @@ namespace spume::coupling {
 /// A row of events.csv.
 struct Event {
   enum class Kind { birth, burst, merge, classChange, kill, leave } kind;
-  double time;                 ///< [s]
+  double time;  ///< [s]
   std::uint64_t id;
-  std::uint64_t other = 0;     ///< merge: the bubble that took the gas
+  std::uint64_t other = 0;  ///< merge: the bubble that took the gas
   BirthCause cause = BirthCause::marker;
   Eigen::Vector3d position{0, 0, 0};
   double radius = 0, gas = 0, age = 0;
@@ -29,14 +29,14 @@ struct Event {
 /// A row of steps.csv.
 struct StepReport {
   int step = 0;
-  double time = 0, dt = 0;     ///< end of the step [s]
-  int halvings = 0;            ///< times dt was halved because a module failed
+  double time = 0, dt = 0;  ///< end of the step [s]
+  int halvings = 0;         ///< times dt was halved because a module failed
   fluid::LiquidStepReport liquid;
   foam::FoamStepReport foam;
-  GasLedger gas;               ///< totals since the start
-  double poured = 0, drained = 0;   ///< totals since the start [m^3]
-  double immersedGas = 0;      ///< [m^3]
-  std::size_t births = 0, bursts = 0;   ///< in this step
+  GasLedger gas;                       ///< totals since the start
+  double poured = 0, drained = 0;      ///< totals since the start [m^3]
+  double immersedGas = 0;              ///< [m^3]
+  std::size_t births = 0, bursts = 0;  ///< in this step
   double secondsLiquid = 0, secondsEntrainment = 0, secondsFoam = 0;
   std::vector<Event> events;
 };
@@ -46,7 +46,7 @@ struct FrameReport {
   int frame = 0;
   double time = 0;
   std::vector<StepReport> steps;
-  double seconds = 0;          ///< wall time of the frame
+  double seconds = 0;  ///< wall time of the frame
 };
 
 /// All that changes while a scene runs, beside the scene itself: a copy is an exact checkpoint.
@@ -69,8 +69,8 @@ class Simulation {
   Simulation(const Scene& scene, SimulationState state);
   ~Simulation();
 
-  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. A step that fails leaves the
-  /// state as it was; dt is halved up to 4 times before NumericalFailure is thrown.
+  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. A step that fails
+  /// leaves the state as it was; dt is halved up to 4 times before NumericalFailure is thrown.
   StepReport step(double dt);
   /// Steps that sum exactly to the next frame's time. `onStep` is called after each.
   FrameReport advanceFrame(const std::function<void(const StepReport&)>& onStep = {});

@@ -9,50 +9,46 @@
 #include "fluid/inflow.h"
 #include "fluid/liquid_state.h"
 #include "fluid/solid_boundary.h"
+#include "fluid/stage_clock.h"
 
 namespace spume::fluid {
 
 /// A positive marker that left the liquid's marker set: air caught under the surface.
 struct EscapedMarker {
-  Eigen::Vector3d position;   ///< [m]
-  Eigen::Vector3d velocity;   ///< of the liquid there [m/s]
-  double gas;                 ///< air it carries, raw share [m^3]
-  double speed;               ///< remembered speed relative to the receiving liquid [m/s]
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector3d velocity;  ///< of the liquid there [m/s]
+  double gas;                ///< air it carries, raw share [m^3]
+  double speed;              ///< remembered speed relative to the receiving liquid [m/s]
 };
 
 /// A closed pocket of air too small for the grid to keep (2 to 4 cells), filled with liquid by this step.
 struct CollapsedPocket {
-  Eigen::Vector3d position;   ///< centroid [m]
-  Eigen::Vector3d velocity;   ///< of the liquid around it [m/s]
-  double gas;                 ///< [m^3]
+  Eigen::Vector3d position;  ///< centroid [m]
+  Eigen::Vector3d velocity;  ///< of the liquid around it [m/s]
+  double gas;                ///< [m^3]
   int cells;
-  double speed;               ///< largest remembered speed of the positive markers in it [m/s]
+  double speed;  ///< largest remembered speed of the positive markers in it [m/s]
 };
 
 /// Gas of bubbles under the surface, which the grid liquid must make room for.
 struct ImmersedGas {
-  std::vector<Eigen::Vector3d> position;   ///< [m]
-  std::vector<double> volume;              ///< immersed part of each bubble [m^3]
-};
-
-struct StageTime {
-  std::string stage;
-  double seconds;
+  std::vector<Eigen::Vector3d> position;  ///< [m]
+  std::vector<double> volume;             ///< immersed part of each bubble [m^3]
 };
 
 /// What a step did. Volumes in m^3.
 struct LiquidStepReport {
   int subSteps = 0;
-  double cfl = 0;                    ///< largest of the sub-steps
-  double maxSpeed = 0;               ///< [m/s], in the liquid
-  int pressureIterations = 0;        ///< summed over the sub-steps
-  double pressureResidual = 0;       ///< worst relative residual
-  double divergence = 0;             ///< largest |div u - source| dx in wet cells after projection [m/s]
-  double liquidVolume = 0;           ///< of the grid liquid, at the end
-  double targetVolume = 0;           ///< what volume control holds: initial + poured - drained + immersed gas
-  double poured = 0;                 ///< through inflows in this step
-  double drained = 0;                ///< out of the domain in this step
-  double kineticEnergy = 0, potentialEnergy = 0;   ///< [J]
+  double cfl = 0;               ///< largest of the sub-steps
+  double maxSpeed = 0;          ///< [m/s], in the liquid
+  int pressureIterations = 0;   ///< summed over the sub-steps
+  double pressureResidual = 0;  ///< worst relative residual
+  double divergence = 0;        ///< largest |div u - source| dx in wet cells after projection [m/s]
+  double liquidVolume = 0;      ///< of the grid liquid, at the end
+  double targetVolume = 0;      ///< what volume control holds: initial + poured - drained + immersed gas
+  double poured = 0;            ///< through inflows in this step
+  double drained = 0;           ///< out of the domain in this step
+  double kineticEnergy = 0, potentialEnergy = 0;  ///< [J]
   std::size_t positiveMarkers = 0, negativeMarkers = 0;
   std::vector<StageTime> stages;
 };
@@ -75,6 +71,7 @@ class LiquidSolver {
   /// Continues from a checkpoint.
   LiquidSolver(FluidParams params, LiquidSetup setup, LiquidState state);
   ~LiquidSolver();
+  LiquidSolver(LiquidSolver&&) noexcept;
 
   /// Advances by dt [s] in as many sub-steps as the CFL limit asks for. Throws NumericalFailure, and then the
   /// state is as it was before the call.

@@ -13,13 +13,13 @@ namespace spume::fluid {
 /// checkpoint. `vdb_grids.h` turns it into OpenVDB grids and back.
 struct LiquidState {
   GridSpec grid;
-  double time = 0;                   ///< [s]
-  std::int64_t subSteps = 0;         ///< sub-steps taken since the start; keys the random numbers of reseeding
-  DenseField<float> phi;             ///< signed distance to the surface at cell centres [m], < 0 in liquid
-  MacVelocity velocity;              ///< [m/s], extrapolated into air and solids
+  double time = 0;            ///< [s]
+  std::int64_t subSteps = 0;  ///< sub-steps taken since the start; keys the random numbers of reseeding
+  DenseField<float> phi;      ///< signed distance to the surface at cell centres [m], < 0 in liquid
+  MacVelocity velocity;       ///< [m/s], extrapolated into air and solids
   MacField<float> pressureGradient;  ///< of the last projection on faces [Pa/m]; 0 away from the liquid
   MarkerSet positive, negative;
-  VolumeLedger volume;               ///< what each connected body should hold
+  VolumeLedger volume;  ///< what each connected body should hold
 };
 
 }  // namespace spume::fluid

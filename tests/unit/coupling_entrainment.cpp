@@ -1,10 +1,10 @@
-#include "coupling/entrainment.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "coupling/entrainment.h"
 
 namespace spume::coupling {
 namespace {
@@ -79,16 +79,18 @@ TEST(Entrainment, RadiiFollowTheCutLognormal) {
   };
   const double low = phi(spec.minRadius), span = phi(spec.maxRadius) - low;
   double distance = 0;
-  for (int i = 0; i < n; ++i) distance = std::max(distance, std::abs((phi(radii[i]) - low) / span - (i + 0.5) / n));
+  for (int i = 0; i < n; ++i)
+    distance = std::max(distance, std::abs((phi(radii[i]) - low) / span - (i + 0.5) / n));
   EXPECT_LT(distance, 1.95 / std::sqrt(n));
 }
 
 TEST(Entrainment, PocketsPayTheirGasUnderTheirOwnCause) {
-  const Entrainment entrainment(EntrainmentSpec{}, 3.6e-3, 3);   // L_e = dx: no scaling
+  const Entrainment entrainment(EntrainmentSpec{}, 3.6e-3, 3);  // L_e = dx: no scaling
   Reservoirs reservoirs;
   GasLedger ledger;
   const double gas = 5e-8;
-  const auto births = entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 0.8}}, reservoirs, ledger);
+  const auto births =
+      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 0.8}}, reservoirs, ledger);
   EXPECT_NEAR(gasOf(births) + ledger.inReservoirs, gas, kRoundOff * gas);
   EXPECT_NEAR(ledger.bornPockets, gas, kRoundOff * gas);
   ASSERT_FALSE(births.empty());

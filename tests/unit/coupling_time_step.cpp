@@ -1,8 +1,8 @@
-#include "coupling/time_step.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "coupling/time_step.h"
 
 namespace spume::coupling {
 namespace {

@@ -1,0 +1,67 @@
+#include "fluid/liquid_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/parallel.h"
+
+namespace spume::fluid {
+namespace {
+
+/// max() that keeps a NaN, so that a broken velocity cannot hide behind a large one.
+double maxOrNan(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
+/// Square of the cell's velocity, each component the mean square of its two faces.
+double meanSquareSpeed(const MacVelocity& velocity, int i, int j, int k) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const Eigen::Vector3i next = Eigen::Vector3i(i, j, k) + Eigen::Vector3i::Unit(a);
+    const double low = velocity[a](i, j, k), high = velocity[a](next);
+    sum += 0.5 * (low * low + high * high);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity) {
+  const Eigen::Vector3i& n = phi.size();
+  const auto slab = [&](int i) {
+    double largest = 0;
+    for (int j = 0; j < n.y(); ++j)
+      for (int k = 0; k < n.z(); ++k) {
+        if (phi(i, j, k) >= 0) continue;
+        largest = maxOrNan(std::abs(velocity[0](i, j, k)), largest);
+        largest = maxOrNan(std::abs(velocity[0](i + 1, j, k)), largest);
+        largest = maxOrNan(std::abs(velocity[1](i, j, k)), largest);
+        largest = maxOrNan(std::abs(velocity[1](i, j + 1, k)), largest);
+        largest = maxOrNan(std::abs(velocity[2](i, j, k)), largest);
+        largest = maxOrNan(std::abs(velocity[2](i, j, k + 1)), largest);
+      }
+    return largest;
+  };
+  return reduceSlabs(n.x(), 0.0, slab, maxOrNan);
+}
+
+LiquidEnergy liquidEnergy(const GridSpec& grid, const DenseField<float>& fraction,
+                          const MacVelocity& velocity, double density, const Eigen::Vector3d& gravity) {
+  const Eigen::Vector3i& n = grid.cells;
+  const auto slab = [&](int i) {
+    Eigen::Vector2d sum(0, 0);
+    for (int j = 0; j < n.y(); ++j)
+      for (int k = 0; k < n.z(); ++k) {
+        const double liquid = fraction(i, j, k);
+        if (liquid == 0) continue;
+        sum += liquid * Eigen::Vector2d(0.5 * meanSquareSpeed(velocity, i, j, k),
+                                        -gravity.dot(grid.cellCentre(i, j, k)));
+      }
+    return sum;
+  };
+  const auto join = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return Eigen::Vector2d(a + b); };
+  const Eigen::Vector2d sum = reduceSlabs(n.x(), Eigen::Vector2d(0, 0), slab, join);
+  const double mass = density * grid.cellVolume();
+  return {mass * sum[0], mass * sum[1]};
+}
+
+}  // namespace spume::fluid
