@@ -1,0 +1,116 @@
+#include "apps/preview/renderer.h"
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/preview/camera.h"
+#include "apps/preview/tracer.h"
+
+namespace spume::apps {
+namespace {
+
+/// Linear radiance to display values 0..1: a film-like curve (dark toe, soft shoulder), then the sRGB curve.
+Vec3 toDisplay(const Vec3& light) {
+  constexpr float kExposure = 0.72f;
+  return light.unaryExpr([](float radiance) {
+    const float x = std::max(radiance, 0.0f) * kExposure;
+    const float linear = std::min(x * (2.4f * x + 0.05f) / (x * (2.4f * x + 0.72f) + 0.13f), 1.0f);
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+  });
+}
+
+/// The picture while it is computed: display values, so that strong highlights do not alias.
+class Canvas {
+ public:
+  Canvas(const Tracer& tracer, const Camera& camera, const PreviewSettings& settings)
+      : tracer_(tracer),
+        camera_(camera),
+        settings_(settings),
+        pixel_(std::size_t(settings.width) * settings.height) {}
+
+  void render();
+  void refineEdges();
+  Image image() const;
+
+ private:
+  Vec3 sample(int x, int y, int samples) const;
+  bool isEdge(int x, int y) const;
+  const Vec3& at(int x, int y) const { return pixel_[std::size_t(y) * settings_.width + x]; }
+  template <typename Body>
+  void forEachPixel(const Body& body) const {
+    constexpr int kTile = 16;
+    tbb::parallel_for(tbb::blocked_range2d<int>(0, settings_.height, kTile, 0, settings_.width, kTile),
+                      [&](const tbb::blocked_range2d<int>& tile) {
+                        for (int y = tile.rows().begin(); y < tile.rows().end(); ++y)
+                          for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) body(x, y);
+                      });
+  }
+
+  const Tracer& tracer_;
+  const Camera& camera_;
+  const PreviewSettings& settings_;
+  std::vector<Vec3> pixel_;
+};
+
+Vec3 Canvas::sample(int x, int y, int samples) const {
+  Vec3 sum = Vec3::Zero();
+  for (int a = 0; a < samples; ++a)
+    for (int b = 0; b < samples; ++b)
+      sum += toDisplay(tracer_.radiance(
+          camera_.eye(), camera_.direction(x + (a + 0.5f) / samples, y + (b + 0.5f) / samples)));
+  return sum / static_cast<float>(samples * samples);
+}
+
+void Canvas::render() {
+  forEachPixel(
+      [&](int x, int y) { pixel_[std::size_t(y) * settings_.width + x] = sample(x, y, settings_.samples); });
+}
+
+bool Canvas::isEdge(int x, int y) const {
+  constexpr float kContrast = 0.10f;  // of display values, about the smallest step the eye sees as a jag
+  const Vec3& here = at(x, y);
+  const auto differs = [&](int u, int v) {
+    if (u < 0 || v < 0 || u >= settings_.width || v >= settings_.height) return false;
+    return (at(u, v) - here).cwiseAbs().maxCoeff() > kContrast;
+  };
+  return differs(x - 1, y) || differs(x + 1, y) || differs(x, y - 1) || differs(x, y + 1);
+}
+
+void Canvas::refineEdges() {
+  std::vector<Vec3> refined = pixel_;
+  forEachPixel([&](int x, int y) {
+    if (isEdge(x, y)) refined[std::size_t(y) * settings_.width + x] = sample(x, y, 2 * settings_.samples);
+  });
+  pixel_.swap(refined);
+}
+
+Image Canvas::image() const {
+  Image image(settings_.width, settings_.height);
+  for (std::size_t p = 0; p < pixel_.size(); ++p)
+    for (int c = 0; c < 3; ++c)
+      image.rgb[3 * p + c] =
+          static_cast<std::uint8_t>(std::lround(255 * std::clamp(pixel_[p][c], 0.0f, 1.0f)));
+  return image;
+}
+
+}  // namespace
+
+Image renderPreview(const PreviewScene& scene, const PreviewSettings& settings) {
+  SurfaceMesh solid;
+  if (scene.solid) solid = meshDistance(scene.grid, scene.solid, scene.lower, scene.upper);
+  const RayScene rays(scene, meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper), std::move(solid));
+  const Vec3 lower = scene.lower.cast<float>(), upper = scene.upper.cast<float>();
+  const Environment environment(lower, upper, CausticMap(rays, lower, upper));
+  const Tracer tracer(scene, settings.style, rays, environment);
+  const Camera camera(scene, settings.width, settings.height);
+  Canvas canvas(tracer, camera, settings);
+  canvas.render();
+  canvas.refineEdges();
+  return canvas.image();
+}
+
+}  // namespace spume::apps
