@@ -16,7 +16,7 @@ class LayerList {
   static constexpr std::uint8_t kBarred = 254;     ///< never entered
 
   LayerList() = default;
-  explicit LayerList(const Eigen::Vector3i& size) : mark_(size, kUnreached), next_(size, kUnreached) {}
+  explicit LayerList(const Eigen::Vector3i& size);
 
   /// Marks to be set before `grow`: 0 at seeds, kBarred where no layer may enter, kUnreached elsewhere.
   DenseField<std::uint8_t>& marks() { return mark_; }
@@ -24,7 +24,7 @@ class LayerList {
 
   /// Grows `layers` layers from the seeds and collects the offsets of every layer.
   void grow(int layers);
-  /// Offsets (DenseField::index) of the points of a layer; layer 0 holds the seeds.
+  /// Offsets of the points of a layer in a DenseField<float> of the same size; layer 0 holds the seeds.
   std::span<const std::int32_t> layer(int l) const;
   int layers() const { return static_cast<int>(start_.size()) - 1; }
 
@@ -33,6 +33,7 @@ class LayerList {
   void collect(int layers);
 
   DenseField<std::uint8_t> mark_, next_;
+  std::ptrdiff_t strideI_ = 0, strideJ_ = 0, first_ = 0;  ///< of a DenseField<float> of this size
   std::vector<std::int32_t> offsets_;
   std::vector<std::size_t> start_;
   std::vector<std::size_t> slabStart_;

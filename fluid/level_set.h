@@ -12,7 +12,7 @@ namespace spume::fluid {
 
 /// Half-width of the band in which phi is a signed distance [cells]; beyond it phi = +-kLevelSetBand dx. Must
 /// hold the marker band (3), one sub-step of motion and the stencils (model, "Liquid"; 3 is too thin).
-inline constexpr int kLevelSetBand = 8;
+inline constexpr int kLevelSetBand = 6;
 
 /// Sets the ghost layers of a cell-centred field by reflection in the domain faces: zero normal slope, so a
 /// wall meets the surface at 90 degrees.
@@ -31,19 +31,22 @@ class SolidExtension {
  public:
   /// Finds the cells behind walls and their mirror points. Call again whenever solids have moved.
   void rebuild(const GridSpec& grid, const SolidBoundary& solids);
-  /// Overwrites `field` behind the walls (down to kSolidDepth cells, nearest value deeper) and in the ghosts.
+  /// Overwrites `field` behind the walls (the reflection reaches at most kMirrorReach cells into the
+  /// free space, deeper cells repeat that value) and in the ghosts.
   void apply(DenseField<float>& field) const;
 
  private:
   struct Mirror {
     std::int32_t cell;  ///< offset of the cell in the field
-    std::int32_t base;  ///< offset of the mirror point's cell base
-    float fx, fy, fz;   ///< fractions of the mirror point in that base
+    std::int32_t base;  ///< offset of the low corner of the mirror point's interpolation cube
+    float weight[8];    ///< trilinear weights of the cube's corners, z fastest
+    float wet[8];       ///< the same over corners in free space only, summing to 1 (or all 0)
   };
-  void seed(DenseField<float>& field) const;
+  Mirror mirrorOf(const GridSpec& grid, const SolidBoundary& solids, int i, int j, int k) const;
+  void fill(DenseField<float>& field, bool wetOnly) const;
 
-  std::vector<Mirror> mirrors_;    ///< sorted from the wall inwards, then by cell
-  std::vector<std::uint8_t> wet_;  ///< 8 flags per mirror: corner lies in free space
+  std::vector<Mirror> mirrors_;
+  mutable std::vector<float> value_;  ///< scratch of `apply`, one per mirror
 };
 
 /// Fraction 0..1 of the free space of cell (i, j, k) that is liquid: trilinear phi in its eight octants, each

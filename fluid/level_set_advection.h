@@ -26,10 +26,11 @@ class LevelSetAdvection {
 
  private:
   void centreVelocity(const MacVelocity& velocity);
-  void wenoRate(const DenseField<float>& phi, DenseField<float>& rate) const;
+  void wenoRate(const DenseField<float>& phi);
+  void combine(DenseField<float>& phi, float ofStart, float dt) const;
 
   GridSpec grid_;
-  DenseField<float> next_, rate_, centreU_, centreV_, centreW_;
+  DenseField<float> start_, next_, rate_, centreU_, centreV_, centreW_;
 };
 
 }  // namespace spume::fluid

@@ -11,18 +11,20 @@ class VelocityAdvector {
  public:
   explicit VelocityAdvector(const GridSpec& grid);
 
-  /// Advances `velocity` by dt [s] on the faces within reach of liquid (phi < kAdvectReach dx on either
-  /// side); other faces keep their values. Ghosts of `velocity` must be filled and are refilled.
+  /// Advances `velocity` by dt [s] on the rows of faces within 2 dx of liquid; other faces keep their values.
+  /// Paths by the midpoint rule, kept inside the grid; macCormack adds the returned error's half and limits
+  /// the result to the values it was interpolated from [Selle et al. 2008]. Ghosts of `velocity` and `phi`
+  /// must be filled; those of `velocity` are refilled.
   void advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt, MacVelocity& velocity);
 
  private:
-  void traceAxis(int axis, const DenseField<float>& phi, const MacVelocity& velocity, float cellsPerSpeed,
-                 float reach, const DenseField<float>& source, DenseField<float>& out) const;
-  void correctAxis(int axis, const DenseField<float>& phi, const MacVelocity& velocity, float cellsPerSpeed,
-                   float reach, DenseField<float>& out) const;
+  void forwardPass(int axis, const DenseField<float>& phi, const MacVelocity& velocity, float cellsPerSpeed,
+                   float limit);
+  void correctingPass(int axis, const DenseField<float>& phi, const MacVelocity& velocity,
+                      float cellsPerSpeed, float limit);
 
   GridSpec grid_;
-  MacVelocity forward_, next_;
+  MacVelocity forward_, low_, high_, next_;
 };
 
 }  // namespace spume::fluid

@@ -1,0 +1,68 @@
+#include "fluid/layer_list.h"
+
+#include <numeric>
+
+#include "fluid/parallel.h"
+
+namespace spume::fluid {
+
+LayerList::LayerList(const Eigen::Vector3i& size) : mark_(size, kUnreached), next_(size, kUnreached) {
+  const DenseField<float> shape(size);
+  strideI_ = shape.stride(0);
+  strideJ_ = shape.stride(1);
+  first_ = shape.index(0, 0, 0);
+}
+
+void LayerList::dilate(std::uint8_t layer) {
+  const std::ptrdiff_t si = mark_.stride(0), sj = mark_.stride(1);
+  const std::uint8_t from = layer - 1;
+  forEachRow(mark_.size(), [&](int i, int j) {
+    const std::uint8_t* m = &mark_(i, j, 0);
+    std::uint8_t* out = &next_(i, j, 0);
+    for (int k = 0; k < mark_.size().z(); ++k) {
+      const bool beside = (m[k - si] == from) | (m[k + si] == from) | (m[k - sj] == from) |
+                          (m[k + sj] == from) | (m[k - 1] == from) | (m[k + 1] == from);
+      out[k] = m[k] == kUnreached && beside ? layer : m[k];
+    }
+  });
+  mark_.swap(next_);
+}
+
+void LayerList::collect(int layers) {
+  const Eigen::Vector3i n = mark_.size();
+  const std::size_t width = layers + 1;
+  slabStart_.assign(width * n.x(), 0);  // [layer][slab]: a prefix sum over it gives every list its place
+  const auto slabCounter = [&](int layer, int i) -> std::size_t& { return slabStart_[layer * n.x() + i]; };
+  const auto visitSlab = [&](int i, const auto& visit) {
+    for (int j = 0; j < n.y(); ++j) {
+      const std::uint8_t* m = &mark_(i, j, 0);
+      const std::int32_t row = static_cast<std::int32_t>(first_ + i * strideI_ + j * strideJ_);
+      for (int k = 0; k < n.z(); ++k)
+        if (m[k] <= layers) visit(m[k], row + k);
+    }
+  };
+  tbb::parallel_for(0, n.x(),
+                    [&](int i) { visitSlab(i, [&](int layer, std::int32_t) { ++slabCounter(layer, i); }); });
+  std::exclusive_scan(slabStart_.begin(), slabStart_.end(), slabStart_.begin(), std::size_t{0});
+  start_.resize(width + 1);
+  for (std::size_t l = 0; l < width; ++l) start_[l] = slabCounter(static_cast<int>(l), 0);
+  // After the scan the last counter lacks its own slab; the total is found by counting that slab again.
+  std::size_t lastSlab = 0;
+  visitSlab(n.x() - 1, [&](int layer, std::int32_t) { lastSlab += layer == layers; });
+  start_[width] = slabStart_.back() + lastSlab;
+  offsets_.resize(start_[width]);
+  tbb::parallel_for(0, n.x(), [&](int i) {
+    visitSlab(i, [&](int layer, std::int32_t offset) { offsets_[slabCounter(layer, i)++] = offset; });
+  });
+}
+
+void LayerList::grow(int layers) {
+  for (int l = 1; l <= layers; ++l) dilate(static_cast<std::uint8_t>(l));
+  collect(layers);
+}
+
+std::span<const std::int32_t> LayerList::layer(int l) const {
+  return std::span(offsets_).subspan(start_[l], start_[l + 1] - start_[l]);
+}
+
+}  // namespace spume::fluid

@@ -1,0 +1,258 @@
+#include "fluid/level_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid/parallel.h"
+#include "fluid/plane_fraction.h"
+#include "fluid/sampling.h"
+
+namespace spume::fluid {
+namespace {
+
+/// How far into the free space a cell behind a wall looks [cells]: as deep as any stencil reads.
+constexpr float kMirrorReach = 4;
+/// Sweeps over the cells behind walls whose mirror points touch other such cells; each sweep shrinks what is
+/// left of the first guess at least by half, so that 4 leave a few per cent of a near-wall difference.
+constexpr int kMirrorSweeps = 4;
+
+int reflect(int i, int n) {
+  const int inside = i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i;
+  return std::clamp(inside, 0, n - 1);
+}
+
+int nearest(int i, int n) { return std::clamp(i, 0, n - 1); }
+
+/// Fills all ghosts from `source(i, n)`, the inner index that a ghost index copies.
+template <typename Source>
+void fillGhosts(DenseField<float>& f, const Source& source) {
+  const Eigen::Vector3i n = f.size();
+  const std::ptrdiff_t rowBytes = n.z() + 2 * kGhost;
+  forEachRow(n, [&](int i, int j) {
+    for (int g = 1; g <= kGhost; ++g) {
+      f(i, j, -g) = f(i, j, source(-g, n.z()));
+      f(i, j, n.z() - 1 + g) = f(i, j, source(n.z() - 1 + g, n.z()));
+    }
+  });
+  const auto copyRow = [&](int i, int j, int fromI, int fromJ) {
+    std::copy_n(&f(fromI, fromJ, -kGhost), rowBytes, &f(i, j, -kGhost));
+  };
+  for (int i = 0; i < n.x(); ++i)
+    for (int g = 1; g <= kGhost; ++g) {
+      copyRow(i, -g, i, source(-g, n.y()));
+      copyRow(i, n.y() - 1 + g, i, source(n.y() - 1 + g, n.y()));
+    }
+  for (int g = 1; g <= kGhost; ++g)
+    for (int j = -kGhost; j < n.y() + kGhost; ++j) {
+      copyRow(-g, j, source(-g, n.x()), j);
+      copyRow(n.x() - 1 + g, j, source(n.x() - 1 + g, n.x()), j);
+    }
+}
+
+/// Gradient of psi per cell [-], one-sided at the domain faces (psi need not have ghosts).
+Eigen::Vector3f wallNormal(const DenseField<float>& psi, float dx, int i, int j, int k) {
+  Eigen::Vector3f gradient;
+  const Eigen::Vector3i cell(i, j, k);
+  for (int a = 0; a < 3; ++a) {
+    Eigen::Vector3i low = cell, high = cell;
+    low[a] = std::max(cell[a] - 1, 0);
+    high[a] = std::min(cell[a] + 1, psi.size()[a] - 1);
+    const int span = std::max(high[a] - low[a], 1);
+    gradient[a] = (psi(high) - psi(low)) / (static_cast<float>(span) * dx);
+  }
+  return gradient;
+}
+
+}  // namespace
+
+void fillGhostLayers(DenseField<float>& field) { fillGhosts(field, reflect); }
+
+void fillGhostLayers(MacVelocity& velocity) {
+  for (DenseField<float>& component : velocity.axis) fillGhosts(component, nearest);
+}
+
+void initialiseLevelSet(const GridSpec& grid, const std::function<double(const Eigen::Vector3d&)>& phi0,
+                        DenseField<float>& phi) {
+  if (phi.size() != grid.cells) phi = DenseField<float>(grid.cells);
+  const double limit = kLevelSetBand * grid.dx;
+  forEachCell(grid.cells, [&](int i, int j, int k) {
+    phi(i, j, k) = static_cast<float>(std::clamp(phi0(grid.cellCentre(i, j, k)), -limit, limit));
+  });
+  fillGhostLayers(phi);
+}
+
+SolidExtension::Mirror SolidExtension::mirrorOf(const GridSpec& grid, const SolidBoundary& solids, int i,
+                                                int j, int k) const {
+  const DenseField<float>& psi = solids.psi;
+  const float dx = static_cast<float>(grid.dx);
+  const float depth = -psi(i, j, k) / dx;
+  Eigen::Vector3f normal = wallNormal(psi, dx, i, j, k);
+  normal /= std::max(normal.norm(), 1e-6f);
+  const Eigen::Vector3f target = Eigen::Vector3f(i, j, k) + (depth + std::min(depth, kMirrorReach)) * normal;
+  Eigen::Vector3i base;
+  Eigen::Vector3f t;
+  for (int a = 0; a < 3; ++a) {
+    const float inside = std::clamp(target[a], 0.0f, static_cast<float>(psi.size()[a] - 1));
+    base[a] = std::min(static_cast<int>(inside), std::max(psi.size()[a] - 2, 0));
+    t[a] = inside - static_cast<float>(base[a]);
+  }
+  Mirror mirror{static_cast<std::int32_t>(psi.index(i, j, k)),
+                static_cast<std::int32_t>(psi.index(base.x(), base.y(), base.z())),
+                {},
+                {}};
+  float wetSum = 0;
+  for (int c = 0; c < 8; ++c) {
+    const Eigen::Vector3i step(c >> 2, (c >> 1) & 1, c & 1);
+    float weight = 1;
+    for (int a = 0; a < 3; ++a) weight *= step[a] ? t[a] : 1 - t[a];
+    const Eigen::Vector3i corner = (base + step).cwiseMin(psi.size() - Eigen::Vector3i::Ones());
+    mirror.weight[c] = weight;
+    mirror.wet[c] = psi(corner) > 0 ? weight : 0;
+    wetSum += mirror.wet[c];
+  }
+  if (wetSum > 0)
+    for (float& weight : mirror.wet) weight /= wetSum;
+  return mirror;
+}
+
+void SolidExtension::rebuild(const GridSpec& grid, const SolidBoundary& solids) {
+  mirrors_.clear();
+  for (int i = 0; i < grid.cells.x(); ++i)
+    for (int j = 0; j < grid.cells.y(); ++j)
+      for (int k = 0; k < grid.cells.z(); ++k)
+        if (solids.psi(i, j, k) <= 0) mirrors_.push_back(mirrorOf(grid, solids, i, j, k));
+  value_.resize(mirrors_.size());
+}
+
+void SolidExtension::fill(DenseField<float>& field, bool wetOnly) const {
+  float* data = field.data();
+  const std::ptrdiff_t si = field.stride(0), sj = field.stride(1);
+  const std::array<std::ptrdiff_t, 8> step{0, 1, sj, sj + 1, si, si + 1, si + sj, si + sj + 1};
+  const std::size_t count = mirrors_.size();
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t m) {
+    const Mirror& mirror = mirrors_[m];
+    const float* weight = wetOnly ? mirror.wet : mirror.weight;
+    float sum = 0, weights = 0;
+    for (int c = 0; c < 8; ++c) {
+      sum += weight[c] * data[mirror.base + step[c]];
+      weights += weight[c];
+    }
+    value_[m] = weights > 0 ? sum : data[mirror.cell];
+  });
+  for (std::size_t m = 0; m < count; ++m) data[mirrors_[m].cell] = value_[m];
+}
+
+void SolidExtension::apply(DenseField<float>& field) const {
+  if (!mirrors_.empty()) {
+    fillGhostLayers(field);  // the cubes of points at the domain faces read one ghost, with weight 0
+    fill(field, true);
+    for (int sweep = 0; sweep < kMirrorSweeps; ++sweep) fill(field, false);
+  }
+  fillGhostLayers(field);
+}
+
+namespace {
+
+/// Largest curvature term of the volume [phi per cell]: that of a drop of 4 cells radius. At kinks the second
+/// difference is not a curvature and must not move the surface far.
+constexpr float kMaxLaplacian = 0.5f;
+/// Cells further from the surface than this are full or empty [cells]: half a diagonal and a margin.
+constexpr float kUncutDistance = 1;
+/// Columns per side along which a cell cut by wall and surface is integrated.
+constexpr int kColumns = 4;
+
+float laplacian(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj) {
+  return p[si] + p[-si] + p[sj] + p[-sj] + p[1] + p[-1] - 6 * p[0];
+}
+
+/// Part of one octant, towards the neighbours at offsets (di, dj, dk), below zero. Linear interpolation
+/// between centres overstates the mean of phi over the cell by laplacian/12: `shift` takes that out.
+double octantFraction(const float* p, std::ptrdiff_t di, std::ptrdiff_t dj, std::ptrdiff_t dk, float shift) {
+  const float v000 = p[0], v001 = p[dk], v010 = p[dj], v011 = p[dj + dk];
+  const float v100 = p[di], v101 = p[di + dk], v110 = p[di + dj], v111 = p[di + dj + dk];
+  const float q = 0.25f;
+  const float c00 = lerp(v000, v001, q), c01 = lerp(v010, v011, q);
+  const float c10 = lerp(v100, v101, q), c11 = lerp(v110, v111, q);
+  const float c0 = lerp(c00, c01, q), c1 = lerp(c10, c11, q);
+  const float gz = lerp(lerp(v001 - v000, v011 - v010, q), lerp(v101 - v100, v111 - v110, q), q);
+  return planeFraction(lerp(c0, c1, q) - shift, 0.5f * (c1 - c0), 0.5f * lerp(c01 - c00, c11 - c10, q),
+                       0.5f * gz);
+}
+
+/// The interval of [-1/2, 1/2] on which value + slope s < 0.
+struct Interval {
+  double low, high;
+};
+Interval negativePart(double value, double slope) {
+  if (std::abs(slope) < 1e-12) return value < 0 ? Interval{-0.5, 0.5} : Interval{0.5, 0.5};
+  const double root = std::clamp(-value / slope, -0.5, 0.5);
+  return slope > 0 ? Interval{-0.5, root} : Interval{root, 0.5};
+}
+
+Eigen::Vector3d centralSlope(const DenseField<float>& f, int i, int j, int k) {
+  return 0.5 * Eigen::Vector3d(f(i + 1, j, k) - f(i - 1, j, k), f(i, j + 1, k) - f(i, j - 1, k),
+                               f(i, j, k + 1) - f(i, j, k - 1));
+}
+
+/// Liquid part of the free space of a cell that both a wall and the surface may cut: both as planes,
+/// integrated exactly along columns across the wall.
+double liquidShareOfCutCell(const DenseField<float>& phi, const SolidBoundary& solids, float dx, int i, int j,
+                            int k) {
+  const double phi0 = phi(i, j, k), psi0 = solids.psi(i, j, k);
+  const Eigen::Vector3d phiSlope = centralSlope(phi, i, j, k);
+  const Eigen::Vector3d psiSlope = dx * wallNormal(solids.psi, dx, i, j, k).cast<double>();
+  int across;
+  psiSlope.cwiseAbs().maxCoeff(&across);
+  const int b = (across + 1) % 3, c = (across + 2) % 3;
+  double liquid = 0, free = 0;
+  for (int m = 0; m < kColumns * kColumns; ++m) {
+    const double sb = (m / kColumns + 0.5) / kColumns - 0.5, sc = (m % kColumns + 0.5) / kColumns - 0.5;
+    const Interval wet = negativePart(phi0 + sb * phiSlope[b] + sc * phiSlope[c], phiSlope[across]);
+    const Interval open = negativePart(-psi0 - sb * psiSlope[b] - sc * psiSlope[c], -psiSlope[across]);
+    free += open.high - open.low;
+    liquid += std::max(0.0, std::min(wet.high, open.high) - std::max(wet.low, open.low));
+  }
+  return free > 0 ? liquid / free : (phi0 < 0 ? 1.0 : 0.0);
+}
+
+float liquidOfCell(const DenseField<float>& phi, const SolidBoundary& solids, float dx, int i, int j, int k) {
+  const float open = solids.cellFraction(i, j, k);
+  if (open <= 0) return 0;
+  const float value = phi(i, j, k);
+  if (std::abs(value) > kUncutDistance * dx) return value < 0 ? open : 0;
+  if (open >= 1) return liquidFractionOfCell(phi, dx, i, j, k);
+  return static_cast<float>(open * liquidShareOfCutCell(phi, solids, dx, i, j, k));
+}
+
+}  // namespace
+
+float liquidFractionOfCell(const DenseField<float>& phi, float dx, int i, int j, int k) {
+  const float* p = &phi(i, j, k);
+  if (std::abs(*p) > kUncutDistance * dx) return *p < 0 ? 1.0f : 0.0f;
+  const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
+  const float shift = std::clamp(laplacian(p, si, sj), -kMaxLaplacian * dx, kMaxLaplacian * dx) / 12;
+  double sum = 0;
+  for (int o = 0; o < 8; ++o)
+    sum += octantFraction(p, o & 4 ? si : -si, o & 2 ? sj : -sj, o & 1 ? 1 : -1, shift);
+  return static_cast<float>(sum / 8);
+}
+
+void computeLiquidFraction(const DenseField<float>& phi, const SolidBoundary& solids, float dx,
+                           DenseField<float>& fraction) {
+  forEachCell(phi.size(),
+              [&](int i, int j, int k) { fraction(i, j, k) = liquidOfCell(phi, solids, dx, i, j, k); });
+}
+
+double liquidVolume(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& solids) {
+  const float dx = static_cast<float>(grid.dx);
+  const auto slab = [&](int i) {
+    double sum = 0;
+    for (int j = 0; j < grid.cells.y(); ++j)
+      for (int k = 0; k < grid.cells.z(); ++k) sum += liquidOfCell(phi, solids, dx, i, j, k);
+    return sum;
+  };
+  const double cells = reduceSlabs(grid.cells.x(), 0.0, slab, [](double a, double b) { return a + b; });
+  return cells * grid.cellVolume();
+}
+
+}  // namespace spume::fluid
