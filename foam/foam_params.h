@@ -9,6 +9,7 @@ namespace spume::foam {
 enum class Preset { paper, physical };
 enum class DragLaw { coefficient, contaminated, clean };
 enum class BuoyancyLaw { hydrostatic, pressureGradient };
+enum class AirDragLaw { coefficient, stokes };
 
 /// Every number that tunes the foam; `presets.h` fills it for a named preset and a scene may override any entry.
 /// `validate()` is called once, by FoamSolver's constructor.
@@ -32,6 +33,8 @@ struct FoamParams {
   DragLaw dragLaw = DragLaw::contaminated;
   double dragCoefficient = 500;          ///< c of Eq. 3 [kg/m^3], 0 to 1e5
   BuoyancyLaw buoyancyLaw = BuoyancyLaw::hydrostatic;
+  AirDragLaw airDragLaw = AirDragLaw::stokes;
+  double airDragCoefficient = 5e-8;      ///< c_vis of Eq. 10 in AirDragLaw::coefficient [kg/s], 0 to 1e3
   double addedMass = 0.5;                ///< C_M [-], 0 to 2
   double liquidAdhesion = 0.3;           ///< s_lad of Eq. 5 [N/m], 0 to 100
   double wallStiffnessFactor = 10;       ///< wall spring = factor x spring stiffness [-], 0 to 1000

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "foam/foam_params.h"
+
+namespace spume::foam {
+
+/// lambda of a bubble at height phi [m] above the surface: wetness below it, drying linearly to wetnessAloft
+/// at wetnessHeight and staying so above.
+double wetnessAt(const FoamParams& params, double phi);
+
+/// Rest length [m] of a contact, l^2 = r_i^2 + r_j^2 + (3 lambda - 1) r_i r_j [Eq. 1]; `wetness` = lambda of
+/// the pair.
+double restLength(double ri, double rj, double wetness);
+
+/// Area [m^2] of the disc in which two balls at distance d [m] meet; 0 if they do not.
+double filmDiscArea(double ri, double rj, double distance);
+
+/// k of a pair [N/m]: max(k, f rho g r_i r_j), k a constant or 2 pi sigma s. The floor keeps large bubbles
+/// from sinking through each other under their own buoyancy.
+double springStiffness(const FoamParams& params, double ri, double rj);
+
+/// A pair force along the line of centres and its stiffness.
+struct PairSpring {
+  double tension = 0;  ///< pull of the pair on each other [N]; < 0 pushes apart
+  double along = 0;    ///< d tension / d distance [N/m], >= 0
+  double across =
+      0;  ///< stiffness against turning [N/m], tension / distance where that is >= 0, else dropped
+};
+
+/// Strong interaction at distance d [Eq. 2].
+/// Deviation: the printed spring switches off the moment a film ends, and a raft then jitters for ever. Here
+/// a compressed pair (d < l) always pushes, film or not; a stretched one pulls with the share min(1, A / (0.1
+/// A_rest)) of its film.
+PairSpring strongSpring(double stiffness, double ri, double rj, double wetness, double distance,
+                        double filmArea);
+
+}  // namespace spume::foam

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "foam/block_system.h"
+#include "foam/bubble_store.h"
+#include "foam/foam_params.h"
+#include "foam/foam_topology.h"
+#include "foam/forces/drag.h"
+#include "foam/implicit_solve.h"
+#include "foam/lone_bubble.h"
+#include "foam/neighbours.h"
+#include "foam/pair_forces.h"
+#include "foam/predictor.h"
+#include "foam/surroundings.h"
+
+namespace spume::foam {
+
+/// The implicit step of [Busaryev 2012, Eq. 9] with its corrections: first every bubble alone, then all
+/// together, (M - dt df/dv - dt^2 df/dx) dv = impulses at the prediction. Deviation: Eq. 9 lacks -dt (df/dv)
+/// v and dt^2 (df/dx) v on the right; here the unknown is the change against the prediction, and every force
+/// contributes at its own velocity, so both are there.
+class Integrator {
+ public:
+  explicit Integrator(const FoamParams& params) : params_(params), drag_(params) {}
+
+  /// Each bubble's own forces and inertia from the step's start; also sets the bubbles' wetness.
+  void describe(const Surroundings& around, BubbleStore& bubbles);
+  /// Moves each bubble alone.
+  void predict(double dt);
+  /// Adds what neighbours do to each other, solves, and leaves the new velocities in velocities().
+  /// Throws NumericalFailure if the solve does not reach the tolerance.
+  SolveReport couple(const BubbleStore& bubbles, const FoamTopology& topology, const Neighbours& neighbours,
+                     double dt);
+  /// Moves the bubbles with their new velocities.
+  void advance(double dt, BubbleStore& bubbles) const;
+
+  const std::vector<double>& mass() const { return mass_; }  ///< inertia of each bubble [kg]
+  const Vectors3& velocities() const { return velocity_; }
+  double kineticEnergy() const;  ///< with the new velocities [J]
+
+ private:
+  void assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours, double dt);
+  double roundOff() const;
+
+  const FoamParams& params_;
+  DragLawTable drag_;
+  std::vector<LoneBubble> lone_;
+  std::vector<double> mass_;
+  std::vector<LinearMotion> motion_;
+  std::vector<PairForce> pairForce_;
+  BlockSystem system_;
+  Vectors3 impulse_, change_, velocity_;
+  std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]
+  ImplicitSolve solver_;
+};
+
+}  // namespace spume::foam

@@ -1,0 +1,144 @@
+#include "foam/lifetime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "foam/counter_random.h"
+#include "foam/volume_correction.h"
+
+namespace spume::foam {
+namespace {
+
+constexpr std::uint64_t kBurstPurpose = 0x6275727374ull;
+
+/// A sliver of sphere below this share is round-off of the cell, not an opening.
+constexpr double kOpenShare = 1e-9;
+
+double relativeRate(const FoamParams& params, double gas) {
+  return std::numbers::ln2 * gasRadius(gas) / params.burstReferenceRadius;
+}
+
+bool isOpen(const FoamTopology& topology, const BubbleStore& bubbles, std::size_t i) {
+  const double sphere = 4 * std::numbers::pi * bubbles.radius[i] * bubbles.radius[i];
+  return topology.freeArea[i] > kOpenShare * sphere;
+}
+
+/// Disjoint sets of bubbles; the root of a set is its lowest index.
+class Clusters {
+ public:
+  explicit Clusters(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::int32_t root(std::int32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::int32_t i, std::int32_t j) {
+    const std::int32_t a = root(i), b = root(j);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+/// For every ending bubble that is enclosed, its neighbour with the largest film.
+std::vector<std::ptrdiff_t> largestFilmNeighbours(const FoamTopology& topology,
+                                                  const std::vector<std::uint8_t>& wanted) {
+  std::vector<std::ptrdiff_t> heir(wanted.size(), -1);
+  std::vector<double> area(wanted.size(), -1);
+  const auto offer = [&](std::int32_t to, std::int32_t candidate, double film) {
+    if (!wanted[to] || film < area[to] || (film == area[to] && candidate > heir[to])) return;
+    area[to] = film, heir[to] = candidate;
+  };
+  for (const Film& film : topology.films) offer(film.i, film.j, film.area), offer(film.j, film.i, film.area);
+  return heir;
+}
+
+/// Advances the clocks of bubble i; the age at its end if it comes within the step, else a negative number.
+double advanceClocks(const FoamParams& params, bool supported, double dt, std::size_t i,
+                     BubbleStore& bubbles) {
+  const double before = bubbles.age[i];
+  bubbles.age[i] += dt;
+  if (!params.bursting || bubbles.type[i] == BubbleClass::liquid) return -1;
+  const double gas = bubbles.gas[i], threshold = burstThreshold(params.seed, bubbles.id[i]);
+  const double lived = timeOfExposure(params, gas, bubbles.exposure[i]);
+  const double end = timeOfExposure(params, gas, threshold);
+  bubbles.exposure[i] = burstExposure(params, gas, lived + dt);
+  if (!supported) bubbles.exposure[i] += threshold * dt / kUnsupportedLife;
+  if (bubbles.exposure[i] < threshold) return -1;
+  return before + std::clamp(end - lived, 0.0, dt);
+}
+
+/// Names the heirs of enclosed bubbles. One step moves gas only once: who inherits does not end, and who has
+/// ended does not inherit; the others wait for the next step.
+void settleHeirs(const std::vector<std::ptrdiff_t>& heirs, const std::vector<std::uint8_t>& enclosed,
+                 std::vector<EndedLife>& ended) {
+  enum : std::uint8_t { untouched, gone, inherited };
+  std::vector<std::uint8_t> state(heirs.size(), untouched);
+  std::erase_if(ended, [&](EndedLife& life) {
+    if (state[life.index] == inherited) return true;
+    if (enclosed[life.index]) {
+      life.heir = heirs[life.index];
+      if (life.heir < 0 || state[life.heir] == gone) return true;
+      state[life.heir] = inherited;
+    }
+    state[life.index] = gone;
+    return false;
+  });
+}
+
+}  // namespace
+
+double burstExposure(const FoamParams& params, double gas, double time) {
+  return relativeRate(params, gas) * std::pow(time / params.burstMedianLife, params.burstShape);
+}
+
+double timeOfExposure(const FoamParams& params, double gas, double exposure) {
+  return params.burstMedianLife * std::pow(exposure / relativeRate(params, gas), 1 / params.burstShape);
+}
+
+double burstThreshold(std::uint64_t seed, std::uint64_t id) {
+  return -std::log1p(-CounterRandom(seed, id, kBurstPurpose).uniform());
+}
+
+std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& topology,
+                                const std::vector<std::uint8_t>& supported, double dt, BubbleStore& bubbles) {
+  std::vector<EndedLife> ended;
+  std::vector<std::uint8_t> enclosed(bubbles.size(), 0);
+  for (std::size_t i = 0; i < bubbles.size(); ++i) {
+    const double age = advanceClocks(params, supported[i], dt, i, bubbles);
+    if (age < 0) continue;
+    ended.push_back({i, age});
+    enclosed[i] = !isOpen(topology, bubbles, i);
+  }
+  if (!ended.empty()) settleHeirs(largestFilmNeighbours(topology, enclosed), enclosed, ended);
+  return ended;
+}
+
+std::vector<std::uint8_t> supportedBubbles(const FoamTopology& topology, const Eigen::VectorXd& psi,
+                                           const BubbleStore& bubbles) {
+  const std::size_t n = bubbles.size();
+  Clusters clusters(n);
+  for (const Film& film : topology.films) clusters.join(film.i, film.j);
+  // A swallowed bubble has no film: it hangs on to whatever swallowed it.
+  for (const OverlapPair& pair : topology.overlaps)
+    if (topology.hidden[pair.i] || topology.hidden[pair.j]) clusters.join(pair.i, pair.j);
+  std::vector<std::uint8_t> held(n, 0), supported(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (bubbles.type[i] != BubbleClass::air || psi[i] <= bubbles.radius[i] || bubbles.touchedSolid[i])
+      held[clusters.root(static_cast<std::int32_t>(i))] = 1;
+  for (std::size_t i = 0; i < n; ++i) supported[i] = held[clusters.root(static_cast<std::int32_t>(i))];
+  return supported;
+}
+
+void coalesce(std::size_t from, std::size_t to, const std::vector<double>& mass, BubbleStore& bubbles) {
+  const double gas = bubbles.gas[from] + bubbles.gas[to], share = bubbles.gas[from] / gas;
+  const double inertiaShare = mass[from] / (mass[from] + mass[to]);
+  bubbles.position[to] += share * (bubbles.position[from] - bubbles.position[to]);
+  bubbles.velocity[to] += inertiaShare * (bubbles.velocity[from] - bubbles.velocity[to]);
+  bubbles.radius[to] *= std::cbrt(gas / bubbles.gas[to]);
+  bubbles.gas[to] = gas;
+}
+
+}  // namespace spume::foam

@@ -1,0 +1,33 @@
+#include "foam/lone_bubble.h"
+
+#include "foam/forces/buoyancy.h"
+#include "foam/forces/drag.h"
+#include "foam/forces/wall_contact.h"
+
+namespace spume::foam {
+namespace {
+
+/// Under an overhanging surface buoyancy grows along the path out of the liquid; it is then held at its first
+/// value, because a force that grows with the motion has no implicit step.
+double frozenImmersion(const LoneBubble& b, double phiAt) {
+  return b.fullBuoyancy.dot(b.up) > 0 ? immersedFraction(phiAt, b.radius) : b.immersed;
+}
+
+}  // namespace
+
+Eigen::Vector3d LoneBubble::surfaceForce(double phiAt) const {
+  return frozenImmersion(*this, phiAt) * fullBuoyancy + liquidAdhesion(adhesion, phiAt, radius, start) * up;
+}
+
+double LoneBubble::surfaceStiffness(double phiAt) const {
+  const double lift = fullBuoyancy.dot(up);
+  const double fromLift = lift > 0 ? lift * immersedFractionSlope(phiAt, radius) : 0;
+  return fromLift + liquidAdhesionSlope(adhesion, phiAt, radius, start);
+}
+
+Eigen::Vector3d LoneBubble::force(const Eigen::Vector3d& v, double dt) const {
+  return weight + surfaceForce(phiAfter(v, dt)) + dragForce(drag, v - liquidVelocity) - airDrag * v +
+         wallContact(wallStiffness, psiAfter(v, dt), wallGap) * awayFromWall;
+}
+
+}  // namespace spume::foam

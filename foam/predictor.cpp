@@ -1,0 +1,162 @@
+#include "foam/predictor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "foam/forces/drag.h"
+#include "foam/forces/wall_contact.h"
+
+namespace spume::foam {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kSweeps =
+    3;  // between the motion along and across grad phi; each is exact for the other's slip
+constexpr int kNewtonSteps = 60;  // bisection alone reaches round-off within these
+constexpr double kRootTolerance =
+    1e-13;  // relative to the bracket: well above round-off, far below any force that matters
+
+/// Root of an increasing function in [low, high], Newton kept inside the bracket. `f(x)` returns {value,
+/// slope}.
+template <typename Function>
+double increasingRoot(const Function& f, double low, double high, double guess) {
+  const double resolution = kRootTolerance * std::max({std::abs(low), std::abs(high), high - low});
+  double x = std::clamp(guess, low, high);
+  for (int step = 0; step < kNewtonSteps && high - low > resolution; ++step) {
+    const auto [value, slope] = f(x);
+    if (value == 0) return x;
+    (value > 0 ? high : low) = x;
+    double next = x - value / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - x) <= resolution) return next;
+    x = next;
+  }
+  return x;
+}
+
+/// Slip w with (m + dt a + dt k |w|) w = m w0 + dt (F - a u) =: momentum; closed form in |w|.
+Vector3d slipUnderConstantForce(const Vector3d& momentum, double inertia, double dragPerStep) {
+  const double p = momentum.norm();
+  return 2 * momentum / (inertia + std::sqrt(inertia * inertia + 4 * dragPerStep * p));
+}
+
+/// The step's equation written for the slip w = v - u, so that drag is central.
+struct SlipEquation {
+  const LoneBubble& bubble;
+  double dt;
+  double inertia;      ///< m + dt a
+  double dragPerStep;  ///< dt k
+  Vector3d momentum;   ///< m w0 + dt (constant forces - a u): all but the surface force
+
+  SlipEquation(const LoneBubble& b, double step)
+      : bubble(b), dt(step), inertia(b.mass + step * b.airDrag), dragPerStep(step * b.drag) {
+    momentum = b.mass * (b.velocity - b.liquidVelocity) + step * (b.weight - b.airDrag * b.liquidVelocity);
+  }
+
+  double phiAt(double along) const {
+    return bubble.phi + dt * bubble.phiSlope * (along + bubble.up.dot(bubble.liquidVelocity));
+  }
+
+  /// {value, slope} of the equation along grad phi for the slip `along`, the slip across it being known.
+  std::pair<double, double> alongSurface(double along, double across) const {
+    const double speed = std::hypot(along, across), at = phiAt(along);
+    const double drag = dragPerStep * speed;
+    const double dragSlope = speed > 0 ? dragPerStep * (speed + along * along / speed) : 0;
+    const double force = bubble.up.dot(bubble.surfaceForce(at));
+    const double stiffness = dt * bubble.phiSlope * bubble.surfaceStiffness(at);
+    return {(inertia + drag) * along - bubble.up.dot(momentum) - dt * force,
+            inertia + dragSlope - dt * stiffness};
+  }
+
+  /// Slip along grad phi.
+  double solveAlong(double across, double guess) const {
+    // The surface force lies between these two whatever the path, so the root does too.
+    const double pull = bubble.up.dot(momentum);
+    const double reach = bubble.fullBuoyancy.norm() + bubble.adhesion * bubble.radius;
+    const double low = std::min((pull - dt * reach) / inertia, 0.0),
+                 high = std::max((pull + dt * reach) / inertia, 0.0);
+    return increasingRoot([&](double along) { return alongSurface(along, across); }, low, high, guess);
+  }
+
+  /// Size of the slip across grad phi under a momentum of size p, the slip along it being known.
+  double solveAcross(double p, double along) const {
+    const auto balance = [&](double across) {
+      const double speed = std::hypot(along, across);
+      const double slope = speed > 0 ? dragPerStep * (speed + across * across / speed) : 0;
+      return std::pair((inertia + dragPerStep * speed) * across - p, inertia + slope);
+    };
+    return increasingRoot(balance, 0, p / inertia, p / inertia);
+  }
+};
+
+Vector3d slipAtSurface(const SlipEquation& equation) {
+  const LoneBubble& b = equation.bubble;
+  const Vector3d start = b.velocity - b.liquidVelocity;
+  double along = b.up.dot(start);
+  Vector3d across = start - along * b.up;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    along = equation.solveAlong(across.norm(), along);
+    const Vector3d total = equation.momentum + equation.dt * b.surfaceForce(equation.phiAt(along));
+    const Vector3d sideways = total - b.up.dot(total) * b.up;
+    const double p = sideways.norm();
+    if (p == 0) return along * b.up;
+    across = equation.solveAcross(p, along) / p * sideways;
+  }
+  return along * b.up + across;
+}
+
+/// Whether the surface force is the same at both ends of the path.
+bool surfaceForceIsConstant(const LoneBubble& b, double phiEnd) {
+  const bool deep = b.phi <= -b.radius && phiEnd <= -b.radius;
+  const bool high = b.start == StepStart::aloft && phiEnd >= b.radius;
+  return deep || high;
+}
+
+/// A bubble on its way into a wall is stopped there by the wall's spring.
+Vector3d stoppedByWall(const LoneBubble& b, Vector3d v, double dt) {
+  const double depth = b.wallGap - b.psiAfter(v, dt);
+  const double slope2 = b.awayFromWall.squaredNorm();
+  if (depth <= 0 || slope2 == 0) return v;
+  const double inertia = b.mass + dt * (b.airDrag + b.drag * (v - b.liquidVelocity).norm());
+  return v + dt * b.wallStiffness * depth / (inertia + dt * dt * b.wallStiffness * slope2) * b.awayFromWall;
+}
+
+/// Slope of a force of one variable between two points of it, never positive; the tangent where they
+/// coincide.
+double chord(double change, double distance, double scale, double tangent) {
+  constexpr double kClose = 1e-7;  // of the bubble's radius: closer, cancellation beats the tangent's error
+  return std::abs(distance) > kClose * scale ? std::min(0.0, change / distance) : tangent;
+}
+
+}  // namespace
+
+Vector3d predictVelocity(const LoneBubble& b, double dt) {
+  const SlipEquation equation(b, dt);
+  const Vector3d constant = equation.momentum + dt * b.surfaceForce(b.phi);
+  Vector3d slip = slipUnderConstantForce(constant, equation.inertia, equation.dragPerStep);
+  if (!surfaceForceIsConstant(b, b.phiAfter(b.liquidVelocity + slip, dt))) slip = slipAtSurface(equation);
+  return stoppedByWall(b, b.liquidVelocity + slip, dt);
+}
+
+LinearMotion linearise(const LoneBubble& b, const Vector3d& predicted, double dt) {
+  const double phiA = b.phiAfter(b.velocity, dt), phiB = b.phiAfter(predicted, dt);
+  const double psiA = b.psiAfter(b.velocity, dt), psiB = b.psiAfter(predicted, dt);
+  const Vector3d surfaceA = b.surfaceForce(phiA), surfaceB = b.surfaceForce(phiB);
+  const double wallB = wallContact(b.wallStiffness, psiB, b.wallGap);
+  const double wallChange = wallContact(b.wallStiffness, psiA, b.wallGap) - wallB;
+  const double surfaceSlope =
+      chord(b.up.dot(surfaceA - surfaceB), phiA - phiB, b.radius, b.surfaceStiffness(phiB));
+  const double wallSlope =
+      chord(wallChange, psiA - psiB, b.radius, wallContactSlope(b.wallStiffness, psiB, b.wallGap));
+  LinearMotion motion;
+  motion.velocity = predicted;
+  motion.impulse = dt * b.force(predicted, dt) - b.mass * (predicted - b.velocity);
+  motion.slope = meanDragJacobian(b.drag, b.velocity - b.liquidVelocity, predicted - b.liquidVelocity) -
+                 b.airDrag * Eigen::Matrix3d::Identity() +
+                 dt * b.phiSlope * surfaceSlope * b.up * b.up.transpose() +
+                 dt * wallSlope * b.awayFromWall * b.awayFromWall.transpose();
+  return motion;
+}
+
+}  // namespace spume::foam

@@ -1,0 +1,30 @@
+#include "foam/presets.h"
+
+namespace spume::foam {
+namespace {
+
+FoamParams paperPreset() {
+  FoamParams params;
+  params.springStiffness = 2;
+  params.springFromSurfaceTension = false;
+  params.dragLaw = DragLaw::coefficient;
+  params.dragCoefficient = 500;
+  params.buoyancyLaw = BuoyancyLaw::hydrostatic;
+  params.airDragLaw = AirDragLaw::coefficient;
+  return params;
+}
+
+FoamParams physicalPreset() {
+  FoamParams params;
+  params.springFromSurfaceTension = true;
+  params.dragLaw = DragLaw::contaminated;
+  params.buoyancyLaw = BuoyancyLaw::pressureGradient;
+  params.airDragLaw = AirDragLaw::stokes;
+  return params;
+}
+
+}  // namespace
+
+FoamParams makePreset(Preset preset) { return preset == Preset::paper ? paperPreset() : physicalPreset(); }
+
+}  // namespace spume::foam
