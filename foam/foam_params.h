@@ -11,45 +11,46 @@ enum class DragLaw { coefficient, contaminated, clean };
 enum class BuoyancyLaw { hydrostatic, pressureGradient };
 enum class AirDragLaw { coefficient, stokes };
 
-/// Every number that tunes the foam; `presets.h` fills it for a named preset and a scene may override any entry.
-/// `validate()` is called once, by FoamSolver's constructor.
+/// Every number that tunes the foam; `presets.h` fills it for a named preset and a scene may override any
+/// entry. `validate()` is called once, by FoamSolver's constructor.
 struct FoamParams {
-  Eigen::Vector3d gravity{0, -9.8, 0};   ///< [m/s^2]
-  double density = 1000;                 ///< rho of the liquid [kg/m^3], 1 to 20000
-  double gasDensity = 1.2;               ///< [kg/m^3], 0 to 1000; air
-  double viscosity = 1.002e-3;           ///< of the liquid, for the drag law [Pa s], 1e-5 to 100
-  double gasViscosity = 1.8e-5;          ///< of the air, for the damping aloft [Pa s], 0 to 1
-  double surfaceTension = 0.0728;        ///< sigma [N/m], 0.001 to 1
+  Eigen::Vector3d gravity{0, -9.8, 0};  ///< [m/s^2]
+  double density = 1000;                ///< rho of the liquid [kg/m^3], 1 to 20000
+  double gasDensity = 1.2;              ///< [kg/m^3], 0 to 1000; air
+  double viscosity = 1.002e-3;          ///< of the liquid, for the drag law [Pa s], 1e-5 to 100
+  double gasViscosity = 1.8e-5;         ///< of the air, for the damping aloft [Pa s], 0 to 1
+  double surfaceTension = 0.0728;       ///< sigma [N/m], 0.001 to 1
 
-  double wetness = 0.4;                  ///< lambda of Eq. 1 [-], 0 to 1
-  double wetnessAloft = 0.4;             ///< lambda at wetnessHeight above the surface [-], 0 to 1
-  double wetnessHeight = 0.02;           ///< height over which lambda goes to wetnessAloft [m], > 0
+  double wetness = 0.4;         ///< lambda of Eq. 1 [-], 0 to 1
+  double wetnessAloft = 0.4;    ///< lambda at wetnessHeight above the surface [-], 0 to 1
+  double wetnessHeight = 0.02;  ///< height over which lambda goes to wetnessAloft [m], > 0
 
-  double springStiffness = 2;            ///< k of Eq. 2 [N/m], 0 to 1e7
-  bool springFromSurfaceTension = false; ///< k_ij = max(2 pi sigma s, 20 rho g r_i r_j) instead of max(k, floor)
-  double springSurfaceTensionFactor = 0.75;   ///< s in that law [-], 0.5 to 1
-  double springFloor = 20;               ///< floor 20 rho g r_i r_j of the stiffness [-], 0 to 1000
+  double springStiffness = 2;  ///< k of Eq. 2 [N/m], 0 to 1e7
+  bool springFromSurfaceTension =
+      false;  ///< k_ij = max(2 pi sigma s, 20 rho g r_i r_j) instead of max(k, floor)
+  double springSurfaceTensionFactor = 0.75;  ///< s in that law [-], 0.5 to 1
+  double springFloor = 20;                   ///< floor 20 rho g r_i r_j of the stiffness [-], 0 to 1000
 
   DragLaw dragLaw = DragLaw::contaminated;
-  double dragCoefficient = 500;          ///< c of Eq. 3 [kg/m^3], 0 to 1e5
+  double dragCoefficient = 500;  ///< c of Eq. 3 [kg/m^3], 0 to 1e5
   BuoyancyLaw buoyancyLaw = BuoyancyLaw::hydrostatic;
   AirDragLaw airDragLaw = AirDragLaw::stokes;
-  double airDragCoefficient = 5e-8;      ///< c_vis of Eq. 10 in AirDragLaw::coefficient [kg/s], 0 to 1e3
-  double addedMass = 0.5;                ///< C_M [-], 0 to 2
-  double liquidAdhesion = 0.3;           ///< s_lad of Eq. 5 [N/m], 0 to 100
-  double wallStiffnessFactor = 10;       ///< wall spring = factor x spring stiffness [-], 0 to 1000
-  double contactDamping = 0.2;           ///< zeta of c_lap = 2 zeta sqrt(k m) [-], 0 to 5
+  double airDragCoefficient = 5e-8;  ///< c_vis of Eq. 10 in AirDragLaw::coefficient [kg/s], 0 to 1e3
+  double addedMass = 0.5;            ///< C_M [-], 0 to 2
+  double liquidAdhesion = 0.3;       ///< s_lad of Eq. 5 [N/m], 0 to 100
+  double wallStiffnessFactor = 10;   ///< wall spring = factor x spring stiffness [-], 0 to 1000
+  double contactDamping = 0.2;       ///< zeta of c_lap = 2 zeta sqrt(k m) [-], 0 to 5
 
-  double volumeRate = 10;                ///< gamma [1/s], 0 to 1000
-  double radiusLimit = 2;                ///< largest r / r0 [-], 1.1 to 10
+  double volumeRate = 10;  ///< gamma [1/s], 0 to 1000
+  double radiusLimit = 2;  ///< largest r / r0 [-], 1.1 to 10
 
   bool bursting = true;
-  double burstMedianLife = 1;            ///< median life in air at burstReferenceRadius [s], 1e-3 to 1e9
-  double burstReferenceRadius = 1e-3;    ///< [m], 1e-6 to 1
-  double burstShape = 2;                 ///< Weibull shape: 2 Rayleigh (Eq. 11 as a hazard), 4/3 thin films; 0.5 to 10
+  double burstMedianLife = 1;          ///< median life in air at burstReferenceRadius [s], 1e-3 to 1e9
+  double burstReferenceRadius = 1e-3;  ///< [m], 1e-6 to 1
+  double burstShape = 2;  ///< Weibull shape: 2 Rayleigh (Eq. 11 as a hazard), 4/3 thin films; 0.5 to 10
 
-  double solverTolerance = 1e-6;         ///< relative residual of the implicit step, 1e-12 to 1e-1
-  int solverIterations = 500;            ///< 1 to 100000
+  double solverTolerance = 1e-6;  ///< relative residual of the implicit step, 1e-12 to 1e-1
+  int solverIterations = 500;     ///< 1 to 100000
   std::uint64_t seed = 1;
 
   /// Throws InvalidParameter naming the first field out of range.

@@ -17,12 +17,12 @@ enum class FoamEventKind { burst, merge, classChange };
 struct FoamEvent {
   FoamEventKind kind;
   std::uint64_t id;
-  std::uint64_t other = 0;               ///< merge: the bubble that took the gas
-  Eigen::Vector3d position;              ///< [m]
-  double radius;                         ///< [m]
-  double gas;                            ///< [m^3]
-  double age;                            ///< [s]
-  BubbleClass from, to;                  ///< classChange: before and after; otherwise both the class
+  std::uint64_t other = 0;   ///< merge: the bubble that took the gas
+  Eigen::Vector3d position;  ///< [m]
+  double radius;             ///< [m]
+  double gas;                ///< [m^3]
+  double age;                ///< [s]
+  BubbleClass from, to;      ///< classChange: before and after; otherwise both the class
 };
 
 struct FoamStageTime {
@@ -36,11 +36,11 @@ struct FoamStepReport {
   std::size_t contacts = 0, overlaps = 0, hidden = 0, clamped = 0;
   int solverIterations = 0;
   double solverResidual = 0;
-  double maxSpeed = 0;                   ///< [m/s]
-  double gas = 0;                        ///< in bubbles at the end [m^3]
-  double gasBurst = 0;                   ///< released in this step [m^3]
-  double volumeErrorMedian = 0, volumeErrorMax = 0;   ///< |V - V0| / V0 over unflagged bubbles
-  double kineticEnergy = 0;              ///< [J]
+  double maxSpeed = 0;                               ///< [m/s]
+  double gas = 0;                                    ///< in bubbles at the end [m^3]
+  double gasBurst = 0;                               ///< released in this step [m^3]
+  double volumeErrorMedian = 0, volumeErrorMax = 0;  ///< |V - V0| / V0 over unflagged bubbles
+  double kineticEnergy = 0;                          ///< [J]
   std::vector<FoamEvent> events;
   std::vector<FoamStageTime> stages;
 };
@@ -53,10 +53,12 @@ class FoamSolver {
   explicit FoamSolver(FoamParams params);
   ~FoamSolver();
 
-  /// Advances all bubbles by dt [s]. Throws NumericalFailure, and then the store is as it was before the call.
+  /// Advances all bubbles by dt [s]. Throws NumericalFailure, and then the store is as it was before the
+  /// call.
   FoamStepReport step(BubbleStore& bubbles, const LiquidSampler& liquid, double dt);
 
-  /// Largest dt [s] for which no pair of neighbours moves relative to each other by more than half the smaller radius.
+  /// Largest dt [s] for which no pair of neighbours moves relative to each other by more than half the
+  /// smaller radius.
   double stableDt(const BubbleStore& bubbles) const;
 
   /// Geometry after the last step, in the order of the store as it was then.
