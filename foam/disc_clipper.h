@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "foam/lane_math.h"
+
+namespace spume::foam {
+
+/// The radical planes of one bubble with its overlapping neighbours, as columns. A point x_i + p is on the
+/// bubble's side of plane k if n_k . p <= height_k.
+struct CuttingPlanes {
+  std::size_t count = 0;
+  std::vector<double> nx, ny, nz;   ///< unit normals, towards the neighbour
+  std::vector<double> height;       ///< signed distance of the plane from the bubble's centre [m]
+  std::vector<double> heightShift;  ///< what undoing the tie-breaking jitter adds to the height [m]
+
+  /// Makes room for `planes` planes and pads with planes that never cut.
+  void resize(std::size_t planes);
+};
+
+/// What is left of a disc (radical plane inside the ball) after all other planes have cut it.
+struct ClippedDisc {
+  bool empty = true;
+  double area = 0;       ///< [m^2]
+  double areaShift = 0;  ///< what undoing the tie-breaking jitter adds to the area, to first order [m^2]
+  double arc = 0;        ///< angle of the disc's rim that is left, seen from the disc's centre, 0..2 pi
+  double solidNear =
+      0;  ///< solid angle of the film from the centre of the bubble that owns the planes, 0..2 pi
+  double solidFar = 0;  ///< the same from the other bubble's centre
+};
+
+/// The ball whose disc is clipped, and where the ball on the other side stands.
+struct DiscBalls {
+  double radius, radiusShift;   ///< of the owner; what undoing the jitter adds to it [m]
+  double farRadius, farHeight;  ///< of the other bubble; signed distance of the plane from its centre [m]
+};
+
+/// Clips discs by planes and integrates what is left over its edges (performance, "Foam geometry"). Holds
+/// scratch memory; one per thread.
+class DiscClipper {
+ public:
+  /// What the other planes leave of plane `face`'s disc. O(m^2) in the number m of planes that cut it.
+  ClippedDisc clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls);
+
+ private:
+  /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film.
+  struct Lines {
+    std::size_t count = 0;
+    std::vector<double> ux, uy;  ///< unit normals in the plane
+    std::vector<double> offset;  ///< D, signed distance from the disc's centre [m]
+    std::vector<double> shift;   ///< what undoing the jitter adds to D [m]
+    std::vector<double> t1, t2;  ///< ends of the edge along the line [m]; t2 > t1 if anything is left
+
+    void resize(std::size_t lines);
+  };
+
+  bool findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2);
+  bool clipLines(double discRadius2);
+  void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
+                 ClippedDisc& out) const;
+
+  std::vector<double> px_, py_, toPlane_, alongNormal_;  ///< of the planes, in the disc's frame
+  Lines lines_;
+};
+
+}  // namespace spume::foam
