@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "foam/overlap_pairs.h"
+#include "tests/support/foam_balls.h"
+
+namespace spume::foam::test {
+namespace {
+
+using PairSet = std::set<std::pair<int, int>>;
+
+bool overlaps(const Balls& balls, int i, int j) {
+  const double reach = balls.radius[i] + balls.radius[j];
+  return (balls.position[i] - balls.position[j]).squaredNorm() < reach * reach;
+}
+
+PairSet allOverlaps(const Balls& balls) {
+  PairSet pairs;
+  for (int i = 0; i < static_cast<int>(balls.size()); ++i)
+    for (int j = i + 1; j < static_cast<int>(balls.size()); ++j)
+      if (overlaps(balls, i, j)) pairs.insert({i, j});
+  return pairs;
+}
+
+/// The overlaps among the candidates; checks mirrors and the order of rows on the way.
+PairSet listedOverlaps(const Balls& balls, const OverlapPairs& list) {
+  PairSet pairs;
+  for (int s = 0; s < list.size(); ++s)
+    for (int slot = list.rowStart()[s], last = -1; slot < list.rowStart()[s + 1]; ++slot) {
+      const int t = list.candidate()[slot], i = list.order()[s], j = list.order()[t];
+      EXPECT_GT(j, last);
+      last = j;
+      EXPECT_EQ(list.candidate()[list.mirror()[slot]], s);
+      EXPECT_EQ(list.mirror()[list.mirror()[slot]], slot);
+      if (overlaps(balls, i, j)) pairs.insert(std::minmax(i, j));
+    }
+  return pairs;
+}
+
+TEST(OverlapPairs, FindsWhatBruteForceFinds) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed)
+    for (double clip : {1.0001, 4., 30.}) {
+      const Balls balls = randomFoam(600, 1.2, clip, 0.9, seed);
+      OverlapPairs list;
+      EXPECT_TRUE(list.update(balls.position, balls.radius));
+      EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls)) << "seed " << seed << " clip " << clip;
+    }
+}
+
+TEST(OverlapPairs, SmallOnesAroundABigOneAreFoundAtRatioThousand) {
+  Balls balls;
+  balls.add({0, 0, 0}, 1);
+  for (int i = 0; i < 400; ++i) {
+    CounterRandom random(3, static_cast<std::uint64_t>(i), 2);
+    const Eigen::Vector3d direction(random.uniform() - .5, random.uniform() - .5, random.uniform() - .5);
+    balls.add((1 + 0.002 * (random.uniform() - .5)) * direction.normalized(), 1e-3);
+  }
+  OverlapPairs list;
+  list.update(balls.position, balls.radius);
+  EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+}
+
+TEST(OverlapPairs, FarFromTheOriginNothingIsLost) {
+  Balls balls = randomFoam(200, 0.5, 5, 0.9, 7);
+  for (auto& x : balls.position) x += Eigen::Vector3d(-1e9, 3e8, 1e9);
+  OverlapPairs list;
+  list.update(balls.position, balls.radius);
+  EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+}
+
+TEST(OverlapPairs, IsKeptWhileBubblesStayWithinTheSkinAndStillComplete) {
+  Balls balls = randomFoam(500, 0.6, 5, 0.9, 11);
+  OverlapPairs list;
+  list.update(balls.position, balls.radius);
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    CounterRandom random(5, i, 3);
+    const Eigen::Vector3d direction(random.uniform() - .5, random.uniform() - .5, random.uniform() - .5);
+    balls.position[i] += 0.9 * OverlapPairs::kSkin * balls.radius[i] * direction.normalized();
+  }
+  EXPECT_FALSE(list.update(balls.position, balls.radius));
+  EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+  balls.radius[17] *= 1.2;
+  EXPECT_TRUE(list.update(balls.position, balls.radius));
+  EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+}
+
+TEST(OverlapPairs, FollowsBirthsAndDeaths) {
+  const Balls balls = randomFoam(50, 0.6, 5, 0.9, 13);
+  OverlapPairs list;
+  for (std::size_t count : {0u, 1u, 50u, 20u, 0u, 50u}) {
+    Balls part = balls;
+    part.position.resize(count), part.radius.resize(count), part.id.resize(count);
+    list.update(part.position, part.radius);
+    EXPECT_EQ(listedOverlaps(part, list), allOverlaps(part));
+  }
+}
+
+}  // namespace
+}  // namespace spume::foam::test
