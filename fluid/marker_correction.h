@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "fluid/dense_field.h"
@@ -23,6 +25,9 @@ class MarkerCorrection {
     std::int32_t cell;  ///< offset in phi
     float plus, minus;  ///< best value of either sign [m]
   };
+  void collect(float dx, MarkerSign sign, const MarkerSet& markers, const DenseField<float>& phi);
+  Offer& offerAt(std::int32_t cell, float phi);
+
   std::vector<Offer> offers_;
   std::vector<std::int32_t> slot_;  ///< per point of phi: its offer, -1 for none
   std::size_t escapedCount_ = 0;

@@ -41,7 +41,7 @@ class MarkerSorter {
   void permute(MarkerSet& markers);
 
   Eigen::Vector3i cells_;
-  std::vector<std::int32_t> cellStart_, cellOf_, order_;
+  std::vector<std::int32_t> cellStart_, cellOf_, order_, next_;
   std::vector<float> column_;
   std::vector<std::uint8_t> flags_;
 };
@@ -61,18 +61,13 @@ class MarkerSeeder {
               MarkerSet& markers);
 
  private:
-  struct Target {
-    std::int32_t cell;
-    std::int32_t wanted;
-  };
-  void removeSurplus(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
-                     MarkerSet& markers);
-  void addMissing(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
-                  std::int64_t subStep, MarkerSet& markers);
+  struct Side;
+  void removeSurplus(const Side& side, MarkerSet& markers);
+  void addMissing(const Side& side, std::int64_t subStep, MarkerSet& markers);
 
   MarkerSorter sorter_;
-  std::vector<std::int32_t> wanted_;   ///< per cell
   std::vector<std::int32_t> missing_;  ///< per cell
+  std::vector<MarkerSet> slabs_;       ///< new markers of each slab of cells
 };
 
 }  // namespace spume::fluid

@@ -25,6 +25,13 @@ struct MarkerSet {
   void resize(std::size_t n) {
     forEachColumn([n](auto& column) { column.resize(n); });
   }
+  void append(const MarkerSet& other) {
+    const auto join = [](auto& column, const auto& more) {
+      column.insert(column.end(), more.begin(), more.end());
+    };
+    join(x, other.x), join(y, other.y), join(z, other.z), join(radius, other.radius);
+    join(gas, other.gas), join(speed, other.speed), join(escaped, other.escaped);
+  }
   /// Appends a marker with no gas, no remembered speed, on its own side.
   void append(float px, float py, float pz, float r) {
     x.push_back(px), y.push_back(py), z.push_back(pz), radius.push_back(r);

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/counter_random.h"
+#include "fluid/marker_particles.h"
+#include "fluid/parallel.h"
+#include "fluid/sampling.h"
+
+namespace spume::fluid {
+namespace {
+
+/// Random numbers for marker positions; the sign is added to keep the two sets apart.
+constexpr std::uint64_t kSeedPurpose = 0x6d61726b;
+/// Attempts per missing marker to find a place on its side, each one attracted to a target distance.
+constexpr int kAttempts = 4;
+/// Newton steps of one attraction; phi is a distance, so one nearly always does [Enright 2002].
+constexpr int kAttractions = 3;
+/// Cells whose centre lies deeper than this behind a wall get no markers [cells].
+constexpr float kWallDepth = 0.5f;
+
+/// Part 0..1 of a cell on the marker's side, from the distance of its centre to that side [cells].
+float sideFraction(float depth) { return std::clamp(0.5f + depth, 0.0f, 1.0f); }
+
+}  // namespace
+
+/// What seeding a set of one sign reads at every marker.
+struct MarkerSeeder::Side {
+  const MarkerScene& scene;
+  const DenseField<float>& phi;
+  FieldView view;
+  float toCells;        ///< phi times this: distance into the marker's side [cells]
+  float nearest, band;  ///< [cells]
+  std::uint64_t purpose;
+
+  Side(const MarkerScene& s, const DenseField<float>& f, MarkerSign sign)
+      : scene(s),
+        phi(f),
+        view(f),
+        toCells(static_cast<float>(static_cast<int>(sign) / s.grid.dx)),
+        nearest(static_cast<float>(s.params.markerRadiusMin)),
+        band(static_cast<float>(s.params.markerBand)),
+        purpose(kSeedPurpose + static_cast<std::uint64_t>(sign == MarkerSign::positive)) {}
+
+  float depth(float x, float y, float z) const { return toCells * sampleCentred(view, x, y, z); }
+  /// Markers wanted in cell (i, j, k).
+  int wanted(int i, int j, int k) const {
+    if (scene.solids.psi(i, j, k) < -kWallDepth * scene.grid.dx) return 0;
+    const float centre = toCells * phi(i, j, k);
+    if (centre > band) return 0;
+    return static_cast<int>(std::lround(scene.params.markersPerCell * sideFraction(centre)));
+  }
+  bool attract(CounterRandom& random, float& x, float& y, float& z) const;
+};
+
+/// Draws the point towards a random distance of its own side and says whether it got there.
+bool MarkerSeeder::Side::attract(CounterRandom& random, float& x, float& y, float& z) const {
+  const float goal = nearest + (0.5f - nearest) * static_cast<float>(random.uniform());
+  const Eigen::Vector3f top = scene.grid.cells.cast<float>();
+  for (int step = 0; step <= kAttractions; ++step) {
+    const ValueAndGradient f = sampleCentredGradient(view, x, y, z);
+    const float here = toCells * f.value;
+    if (here >= nearest && here <= band) return true;
+    const float gx = toCells * f.gx, gy = toCells * f.gy, gz = toCells * f.gz;
+    const float pull = (goal - here) / std::max(gx * gx + gy * gy + gz * gz, 0.25f);
+    x = std::clamp(x + pull * gx, 0.0f, top.x());
+    y = std::clamp(y + pull * gy, 0.0f, top.y());
+    z = std::clamp(z + pull * gz, 0.0f, top.z());
+  }
+  return false;
+}
+
+void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
+  const Eigen::Vector3i cells = side.scene.grid.cells;
+  const std::vector<std::int32_t>& start = sorter_.cellStart();
+  missing_.assign(cells.prod(), 0);
+  forEachRow(cells, [&](int i, int j) {
+    for (int k = 0; k < cells.z(); ++k) {
+      const std::int32_t cell = (i * cells.y() + j) * cells.z() + k;
+      int room = side.wanted(i, j, k);
+      for (std::int32_t n = start[cell]; n < start[cell + 1]; ++n) {
+        if (markers.escaped[n]) continue;
+        const bool strayed = side.depth(markers.x[n], markers.y[n], markers.z[n]) > side.band;
+        if (strayed || room == 0) {
+          markers.x[n] = std::numeric_limits<float>::quiet_NaN();
+        } else {
+          --room;
+        }
+      }
+      missing_[cell] = room;
+    }
+  });
+}
+
+void MarkerSeeder::addMissing(const Side& side, std::int64_t subStep, MarkerSet& markers) {
+  const Eigen::Vector3i cells = side.scene.grid.cells;
+  const auto placed = [&](int i, int j, int k, std::int32_t cell, MarkerSet& out) {
+    CounterRandom random(side.scene.params.seed ^ static_cast<std::uint64_t>(subStep) << 32, cell,
+                         side.purpose);
+    for (int left = missing_[cell], attempt = 0; left > 0 && attempt < kAttempts * missing_[cell];
+         ++attempt) {
+      float x = static_cast<float>(i + random.uniform());
+      float y = static_cast<float>(j + random.uniform());
+      float z = static_cast<float>(k + random.uniform());
+      if (!side.attract(random, x, y, z)) continue;
+      const float radius = std::clamp(side.depth(x, y, z), side.nearest,
+                                      static_cast<float>(side.scene.params.markerRadiusMax));
+      out.append(x, y, z, radius);
+      --left;
+    }
+  };
+  slabs_.resize(cells.x());
+  tbb::parallel_for(0, cells.x(), [&](int i) {
+    slabs_[i].resize(0);
+    for (int j = 0; j < cells.y(); ++j)
+      for (int k = 0; k < cells.z(); ++k) {
+        const std::int32_t cell = (i * cells.y() + j) * cells.z() + k;
+        if (missing_[cell] > 0) placed(i, j, k, cell, slabs_[i]);
+      }
+  });
+  for (const MarkerSet& slab : slabs_) markers.append(slab);
+}
+
+void MarkerSeeder::reseed(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
+                          std::int64_t subStep, MarkerSet& markers) {
+  const Side side(scene, phi, sign);
+  sorter_.sort(markers);
+  removeSurplus(side, markers);
+  addMissing(side, subStep, markers);
+  sorter_.sort(markers);
+}
+
+}  // namespace spume::fluid
