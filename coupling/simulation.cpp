@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "coupling/scene_builder.h"
@@ -67,6 +68,7 @@ struct Simulation::Internals {
   GasLedger gas;
   int frame = 0, steps = 0;
   double time = 0, initialVolume = 0, poured = 0, drained = 0;
+  double foamDt = std::numeric_limits<double>::infinity();
 
   StepReport attempt(double dt);
   void stepLiquid(double dt, StepReport& report);
@@ -77,8 +79,7 @@ struct Simulation::Internals {
 
   double frameEnd() const { return (frame + 1) / scene.time.fps; }
   double nextDt(double remaining) const {
-    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), foam.stableDt(bubbles),
-                          remaining);
+    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), foamDt, remaining);
   }
   VdbLiquidSampler sampler() const { return {liquid.state(), liquid.solids()}; }
   fluid::ImmersedGas immersedGas() const;
@@ -130,6 +131,7 @@ void Simulation::Internals::stepFoam(double dt, StepReport& report) {
     if (happened.kind == foam::FoamEventKind::burst) ++report.bursts;
   }
   report.foam.events.clear();
+  foamDt = foam.stableDt(bubbles);
   report.secondsFoam = watch.seconds();
 }
 
@@ -204,6 +206,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state)
   in.initialVolume = state.initialVolume;
   in.poured = state.poured;
   in.drained = state.drained;
+  in.foamDt = state.foamDt;
 }
 
 Simulation::~Simulation() = default;
@@ -264,6 +267,7 @@ SimulationState Simulation::state() const {
   state.initialVolume = in.initialVolume;
   state.poured = in.poured;
   state.drained = in.drained;
+  state.foamDt = in.foamDt;
   return state;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -57,7 +58,8 @@ struct SimulationState {
   foam::BubbleStore bubbles;
   Reservoirs reservoirs;
   GasLedger gas;
-  double initialVolume = 0, poured = 0, drained = 0;
+  double initialVolume = 0, poured = 0, drained = 0;        ///< [m^3]
+  double foamDt = std::numeric_limits<double>::infinity();  ///< longest next step the foam asked for [s]
 };
 
 /// Liquid and foam of one scene, advanced together.
