@@ -31,7 +31,7 @@ struct ShapeSpec {
   ShapeKind kind = ShapeKind::box;
   Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};  ///< box corners [m]
   Eigen::Vector3d centre{0, 0, 0};  ///< sphere, cylinder: centre [m]; halfSpace: a point of the plane
-  Eigen::Vector3d axis{0, 1, 0};    ///< cylinder axis, halfSpace outward normal
+  Eigen::Vector3d axis{0, 1, 0};    ///< cylinder axis; halfSpace normal, out of the shape
   double radius = 0;                ///< [m]
   double height = 0;                ///< cylinder length along its axis [m]
 };

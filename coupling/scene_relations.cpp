@@ -1,0 +1,69 @@
+#include "coupling/scene_relations.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "coupling/toml_slot.h"
+
+namespace spume::coupling {
+namespace {
+
+constexpr double kMostCells = 1 << 30;  // one float field of 4 GB
+
+std::optional<Conflict> ordered(const std::string& key, double value, const std::string& other, double limit,
+                                const std::string& unit) {
+  if (value <= limit) return std::nullopt;
+  return Conflict{
+      key, "= " + exactText(value) + " exceeds " + other + " = " + exactText(limit) + " [" + unit + "]"};
+}
+
+bool isFileSafe(const std::string& name) {
+  const auto safe = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), safe);
+}
+
+std::optional<Conflict> nameConflict(const Scene& scene) {
+  if (isFileSafe(scene.name)) return std::nullopt;
+  return Conflict{"scene.name", "= " + quoted(scene.name) + " must be one or more letters, digits, _ and -"};
+}
+
+std::optional<Conflict> sizeConflict(const Scene& scene) {
+  const double cells = (scene.domain.size / scene.dx()).array().ceil().prod();
+  if (cells <= kMostCells) return std::nullopt;
+  return Conflict{"domain.resolution", "= " + std::to_string(scene.domain.resolution) + " makes " +
+                                           exactText(cells) + " cells; at most " + exactText(kMostCells)};
+}
+
+std::optional<Conflict> inflowConflict(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
+    const InflowSpec& inflow = scene.inflows[i];
+    const std::string table = "inflow." + std::to_string(i) + ".";
+    if (auto conflict = ordered(table + "start", inflow.start, table + "stop", inflow.stop, "s"))
+      return conflict;
+    if (!(inflow.direction.norm() > 0)) return Conflict{table + "direction", "must not be the zero vector"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Conflict> findConflict(const Scene& scene) {
+  const EntrainmentSpec& births = scene.coupling.entrainment;
+  const std::string entrainment = "coupling.entrainment.";
+  if (auto conflict = nameConflict(scene)) return conflict;
+  if (auto conflict = sizeConflict(scene)) return conflict;
+  if (auto conflict = ordered("time.min_step", scene.time.minDt, "time.max_step", scene.time.maxDt, "s"))
+    return conflict;
+  if (auto conflict = ordered("liquid.marker_radius_min", scene.liquid.markerRadiusMin,
+                              "liquid.marker_radius_max", scene.liquid.markerRadiusMax, "dx"))
+    return conflict;
+  if (auto conflict = ordered(entrainment + "min_radius", births.minRadius, entrainment + "median_radius",
+                              births.medianRadius, "m"))
+    return conflict;
+  if (auto conflict = ordered(entrainment + "median_radius", births.medianRadius, entrainment + "max_radius",
+                              births.maxRadius, "m"))
+    return conflict;
+  return inflowConflict(scene);
+}
+
+}  // namespace spume::coupling

@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "coupling/scene_toml.h"
+
+namespace spume::coupling {
+namespace {
+
+/// A scene file of this process that goes away with the object.
+class SceneFile {
+ public:
+  explicit SceneFile(const std::string& text) : path_(testing::TempDir() + "bad_scene.toml") {
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+  ~SceneFile() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string messageOf(const std::string& text, const Overrides& overrides = {}) {
+  const SceneFile file(text);
+  try {
+    readScene(file.path(), overrides);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string kDomain = "[domain]\nsize = [1, 1, 1]\n";
+
+struct BadInput {
+  std::string name, text;
+  std::vector<std::string> expected;  ///< parts of the message: place, key, value, range, remedy
+  Overrides overrides{};
+};
+
+class BadScene : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadScene, IsRefusedWithPlaceAndRemedy) {
+  const std::string message = messageOf(GetParam().text, GetParam().overrides);
+  ASSERT_FALSE(message.empty()) << "the scene was accepted";
+  for (const std::string& part : GetParam().expected)
+    EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "more than one line: " << message;
+}
+
+const BadInput kBadInputs[] = {
+    {"Syntax", kDomain + "resolution = [1,\n", {"bad_scene.toml:", "syntax"}},
+    {"InvalidUtf8", "\xff\xfe", {":1:1: ", "syntax"}},
+    {"Empty", "", {"domain.size is missing", "3 numbers"}},
+    {"UnknownKey", "[domain]\nsiez = [1, 1, 1]\n", {":2:1: unknown key domain.siez", "domain.size"}},
+    {"UnknownTable", kDomain + "[fom]\n", {":3:2: unknown key fom", "foam"}},
+    {"UnknownNestedTable",
+     kDomain + "[coupling.entrainmnt]\n",
+     {"coupling.entrainmnt", "coupling.entrainment"}},
+    {"TooSmall", kDomain + "resolution = 4\n", {":3:14: domain.resolution = 4", "8 to 1024 [cells]"}},
+    {"TooLarge", kDomain + "[foam]\nwetness = 1.5\n", {":4:11: foam.wetness = 1.5", "0 to 1 [-]"}},
+    {"NotANumber", kDomain + "[time]\nfps = nan\n", {":4:7: time.fps = nan", "1 to 1000 [1/s]"}},
+    {"Infinite", kDomain + "[time]\nfps = inf\n", {":4:7: time.fps = inf", "1 to 1000 [1/s]"}},
+    {"StringForNumber", kDomain + "[time]\nfps = '30'\n", {":4:7: time.fps", "string", "number"}},
+    {"FractionForCount", kDomain + "resolution = 64.5\n", {":3:14: ", "64.5", "whole number"}},
+    {"NumberForSwitch", kDomain + "[output]\nliquid = 1\n", {":4:10: ", "true or false"}},
+    {"ShortVector", "[domain]\nsize = [1, 1]\n", {":2:8: domain.size has 2 entries", "3 numbers"}},
+    {"MixedVector", "[domain]\nsize = [1, 'a', 1]\n", {":2:8: domain.size", "string"}},
+    {"UnknownChoice", kDomain + "[foam]\npreset = 'real'\n", {":4:10: foam.preset", "paper, physical"}},
+    {"UnknownWall", kDomain + "walls = ['top']\n", {":3:9: domain.walls", "top", "-x, +x, -y, +y, -z, +z"}},
+    {"TableForArray", kDomain + "[inflow]\nspeed = 1\n", {":3:1: inflow", "[[inflow]]"}},
+    {"ArrayForTable", kDomain + "[[foam]]\n", {"foam is not a table", "[foam]"}},
+    {"UnorderedKeys",
+     kDomain + "[[inflow]]\nspeed = { keys = [[1, 1], [0, 2]] }\n",
+     {":4:9: ", "increasing"}},
+    {"KeyOutOfRange", kDomain + "[[inflow]]\nspeed = { keys = [[0, 1000]] }\n", {":4:9: ", "0 to 100 [m/s]"}},
+    {"KeyOfOtherShape", kDomain + "[[solid]]\nshape = 'box'\nradius = 1\n", {":5:10: ", "sphere, cylinder"}},
+    {"UnsafeName", kDomain + "[scene]\nname = '../x'\n", {":4:8: scene.name", "letters"}},
+    {"StepsCrossed", kDomain + "[time]\nmin_step = 0.1\n", {":4:12: time.min_step = 0.1", "time.max_step"}},
+    {"RadiiCrossed", kDomain + "[coupling.entrainment]\nmin_radius = 0.01\n", {":4:14: ", "median_radius"}},
+    {"TooManyCells", "[domain]\nsize = [1, 1, 1]\nresolution = 1025\n", {":3:14: ", "1024"}},
+    {"FlatBox",
+     kDomain + "[[solid]]\nname = 'slab'\nlower = [0, 1, 0]\nupper = [1, 1, 1]\n",
+     {"'slab'", "upper"}},
+    {"NoRadius", kDomain + "[[solid]]\nshape = 'sphere'\n", {"solid 0", "radius", "[m]"}},
+    {"ZeroAxis",
+     kDomain + "[[solid]]\nshape = 'cylinder'\naxis = [0, 0, 0]\nradius = 1\nheight = 1\n",
+     {"solid 0", "axis"}},
+    {"BodyOutside",
+     kDomain + "[[liquid_body]]\nname = 'lost'\nshape = 'sphere'\ncentre = [5, 5, 5]\nradius = 1\n",
+     {"liquid_body 'lost'", "outside the domain"}},
+    {"InflowOutside",
+     kDomain + "[[inflow]]\nname = 'jet'\ncentre = [0.5, 2, 0.5]\nradius = 0.1\n",
+     {"inflow 'jet'", "leaves the domain"}},
+    {"NozzleWithoutRoom",
+     kDomain + "[[inflow]]\nname = 'jet'\ncentre = [0.5, 0.99, 0.5]\nradius = 0.1\n",
+     {"inflow 'jet'", "behind its outlet"}},
+    {"InflowInSolid",
+     kDomain + "[[solid]]\nshape = 'sphere'\ncentre = [0.5, 0.5, 0.5]\nradius = 0.3\n"
+               "[[inflow]]\ncentre = [0.5, 0.5, 0.5]\nradius = 0.1\n",
+     {"inflow 0", "inside a solid"}},
+    {"InflowTooThin",
+     kDomain + "[[inflow]]\ncentre = [0.5, 0.5, 0.5]\nradius = 0.001\n",
+     {"too small", "resolution"}},
+    {"InflowWithoutDirection",
+     kDomain + "[[inflow]]\ncentre = [0.5, 0.5, 0.5]\nradius = 0.1\ndirection = [0, 0, 0]\n",
+     {":6:13: inflow.0.direction", "zero vector"}},
+    {"SameNameTwice",
+     kDomain + "[[solid]]\nname = 'a'\nshape = 'sphere'\nradius = 0.1\n"
+               "[[solid]]\nname = 'a'\nshape = 'sphere'\nradius = 0.1\n",
+     {"solid 'a'", "same name"}},
+    {"BubbleOutside",
+     kDomain + "[[bubbles]]\nposition = [2, 0, 0]\nradius = 0.001\n",
+     {"bubbles 0", "outside"}},
+    {"BubbleWithoutRadius",
+     kDomain + "[[bubbles]]\nposition = [0, 0, 0]\n",
+     {":3:1: bubbles.0.radius is missing"}},
+    {"HugeBubble", kDomain + "[[bubbles]]\nposition = [0, 0, 0]\nradius = 0.9\n", {"bubbles 0", "larger"}},
+    {"OverrideOutOfRange",
+     kDomain,
+     {"--set time.fps=0: time.fps = 0", "1 to 1000 [1/s]"},
+     {{"time.fps", "0"}}},
+    {"OverrideUnknown", kDomain, {"--set time.fsp=3: unknown key time.fsp", "time.fps"}, {{"time.fsp", "3"}}},
+    {"OverrideUnknownTable", kDomain, {"--set tiem.fps=3: unknown key tiem", "time"}, {{"tiem.fps", "3"}}},
+    {"OverrideMissingItem", kDomain, {"--set inflow.0.speed=3", "array.0.key"}, {{"inflow.0.speed", "3"}}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, BadScene, testing::ValuesIn(kBadInputs),
+                         [](const testing::TestParamInfo<BadInput>& input) { return input.param.name; });
+
+TEST(SceneFile, MissingFileIsAFileError) {
+  try {
+    readScene("/no/such/scene.toml");
+    FAIL() << "a missing file was read";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("/no/such/scene.toml: cannot read: No such file"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(readScene("/tmp"), FileError);
+}
+
+}  // namespace
+}  // namespace spume::coupling
