@@ -25,7 +25,7 @@ std::string text(const Eigen::Vector3d& v) {
 
 /// "inflow 'jet'", or "inflow 0" for an object without a name.
 std::string label(const std::string& table, const std::string& name, std::size_t item) {
-  return table + (name.empty() ? " " + std::to_string(item) : " '" + name + "'");
+  return name.empty() ? table + " " + std::to_string(item) : table + " '" + name + "'";
 }
 
 Eigen::Vector3d domainUpper(const Scene& scene) { return gridOf(scene).upper(); }

@@ -136,8 +136,15 @@ void checkTogether(const Scene& scene, const SceneDocument& document, const std:
   }
 }
 
+/// "[domain]" or "[[inflow]]".
+std::string header(const KeyTable& table) {
+  std::string text = table.isArray() ? "[[" : "[";
+  text += table.path;
+  return text += table.isArray() ? "]]" : "]";
+}
+
 std::string writeItem(const KeyTable& table, Scene& scene, std::size_t item) {
-  std::string text = (table.isArray() ? "[[" + table.path + "]]" : "[" + table.path + "]") + "\n";
+  std::string text = header(table) + "\n";
   for (const KeyRow& row : table.keys) {
     if (row.applies && !row.applies(scene, item)) continue;
     text += row.name + " = " + toToml(row.slot(scene, item));
@@ -171,7 +178,7 @@ std::string writeScene(const Scene& scene) {
   std::string text;
   for (const KeyTable& table : sceneTables())
     for (std::size_t item = 0; item < (table.isArray() ? table.count(copy) : 1); ++item)
-      text += (text.empty() ? "" : "\n") + writeItem(table, copy, item);
+      text.append(text.empty() ? "" : "\n").append(writeItem(table, copy, item));
   return text;
 }
 
@@ -180,9 +187,11 @@ std::string describeSceneKeys() {
   std::string text;
   for (const KeyTable& table : sceneTables()) {
     if (table.isArray()) table.resize(defaults, 1);
-    text +=
-        (text.empty() ? "" : "\n") + (table.isArray() ? "[[" + table.path + "]]" : "[" + table.path + "]");
-    text += "  " + table.meaning + "\n";
+    text.append(text.empty() ? "" : "\n")
+        .append(header(table))
+        .append("  ")
+        .append(table.meaning)
+        .append("\n");
     for (const KeyRow& row : table.keys) text += describeRow(row, defaults);
   }
   return text;
