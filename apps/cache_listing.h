@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/liquid_cache.h"
+
+namespace spume::apps {
+
+/// The numbered files of one kind in a run's folder, and what they weigh.
+struct CacheListing {
+  std::vector<int> frames;         ///< ascending
+  std::vector<std::string> paths;  ///< of the frames
+  std::uintmax_t bytes = 0;
+};
+
+/// Files `stem`.####.`extension` of `folder`, e.g. ("out/pouring/liquid", "liquid", "vdb"). Empty if there
+/// are none.
+CacheListing listCache(const std::string& folder, const std::string& stem, const std::string& extension);
+
+/// "1-150" or "1-150 (148 files)" where numbers are missing; "none" for an empty listing.
+std::string describeFrames(const CacheListing& listing);
+
+/// Volume of the grid liquid of a cached frame [m^3], solids left out.
+double cachedLiquidVolume(const coupling::LiquidFrame& frame);
+
+}  // namespace spume::apps

@@ -1,0 +1,48 @@
+#include "apps/frame_output.h"
+
+#include "apps/preview/image.h"
+#include "apps/preview/renderer.h"
+#include "coupling/bubble_cache.h"
+#include "coupling/liquid_cache.h"
+#include "coupling/scene_builder.h"
+
+namespace spume::apps {
+
+PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& liquid,
+                       const foam::BubbleStore& bubbles) {
+  PreviewScene view{.grid = liquid.grid,
+                    .phi = liquid.phi,
+                    .lower = liquid.grid.origin,
+                    .upper = liquid.grid.upper(),
+                    .closed = scene.domain.closed,
+                    .solid = {},
+                    .bubblePosition = bubbles.position,
+                    .bubbleRadius = bubbles.radius,
+                    .bubbleType = bubbles.type,
+                    .camera = scene.camera};
+  if (!scene.solids.empty()) view.solid = coupling::solidDistance(scene);
+  return view;
+}
+
+void writeFrame(const coupling::RunFolder& folder, const coupling::Simulation& simulation) {
+  const coupling::Scene& scene = simulation.scene();
+  const coupling::OutputSpec& wanted = scene.output;
+  const int frame = simulation.frame();
+  const coupling::FrameStamp stamp{frame, simulation.time(), scene.time.fps};
+  if (frame % wanted.every == 0) {
+    if (wanted.liquid)
+      coupling::writeLiquidFrame(folder.liquid(frame), simulation.liquid(), simulation.solids(), stamp,
+                                 {.staggeredVelocity = wanted.staggeredVelocity});
+    if (wanted.bubblesVdb)
+      coupling::writeBubblesVdb(folder.bubblesVdb(frame), simulation.bubbles(), stamp,
+                                simulation.liquid().grid.dx);
+    if (wanted.bubblesPly) coupling::writeBubblesPly(folder.bubblesPly(frame), simulation.bubbles(), stamp);
+  }
+  if (wanted.preview) {
+    const PreviewSettings settings{.width = wanted.previewSize.x(), .height = wanted.previewSize.y()};
+    writePng(renderPreview(previewOf(scene, simulation.liquid(), simulation.bubbles()), settings),
+             folder.preview(frame));
+  }
+}
+
+}  // namespace spume::apps

@@ -1,0 +1,66 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "apps/commands/commands.h"
+#include "apps/exit_code.h"
+#include "coupling/errors.h"
+#include "fluid/errors.h"
+#include "foam/errors.h"
+
+namespace spume::apps {
+namespace {
+
+int complain(const std::exception& error, ExitCode code) {
+  std::cerr << "spume: " << error.what() << std::endl;
+  return code;
+}
+
+/// Runs the chosen verb; every error becomes one message and an exit code.
+int perform(const Action& action) {
+  try {
+    return action();
+  } catch (const coupling::SceneError& error) {
+    return complain(error, kUsage);
+  } catch (const fluid::InvalidParameter& error) {
+    return complain(error, kUsage);
+  } catch (const foam::InvalidParameter& error) {
+    return complain(error, kUsage);
+  } catch (const coupling::FileError& error) {
+    return complain(error, kInputOutput);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "spume: out of memory; a lower --resolution needs less" << std::endl;
+    return kFailed;
+  } catch (const std::exception& error) {  // numerical failures among them
+    return complain(error, kFailed);
+  }
+}
+
+int parseAndPerform(int argc, char** argv) {
+  CLI::App program{"Bubbles and foam in a liquid."};
+  program.name("spume");
+  program.set_version_flag("--version", SPUME_VERSION " (" SPUME_SIMD_PATH ")");
+  program.require_subcommand(1);
+  program.footer(
+      "`spume VERB --help` explains a verb and gives examples.\n"
+      "Exit codes: 0 done, 2 wrong command line or scene, 3 check failed or simulation diverged,\n"
+      "4 input/output, 75 stopped by --max-wall, 130/143 interrupted after writing a checkpoint.");
+  Action action;
+  addRun(program, action);
+  addCheck(program, action);
+  addInfo(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(error, kUsage);
+  }
+  return perform(action);
+}
+
+}  // namespace
+}  // namespace spume::apps
+
+int main(int argc, char** argv) { return spume::apps::parseAndPerform(argc, argv); }

@@ -1,0 +1,172 @@
+#include "apps/run_session.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "apps/duration.h"
+#include "apps/frame_output.h"
+#include "apps/log.h"
+#include "apps/preview/movie.h"
+#include "apps/progress.h"
+#include "apps/stop_request.h"
+#include "coupling/checkpoint.h"
+#include "coupling/run_folder.h"
+#include "coupling/scene_builder.h"
+#include "coupling/scene_lint.h"
+#include "coupling/statistics.h"
+
+namespace spume::apps {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using coupling::FrameReport;
+using coupling::Simulation;
+using coupling::StepReport;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// One run on one folder. The members are built in order: nothing is written before the scene proved sound.
+class Session {
+ public:
+  explicit Session(const SessionOptions& options);
+  ExitCode run();
+
+ private:
+  bool finished() const { return simulation_->frame() >= options_.scene.time.frames; }
+  void begin();
+  void advance(Progress& progress, const StopRequest& stop);
+  void writeCheckpoint();
+  void writeSummary(const std::string& status);
+  void finish();
+
+  const SessionOptions& options_;
+  const Clock::time_point start_ = Clock::now();
+  coupling::RunFolder folder_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<coupling::StatisticsWriter> statistics_;
+  std::unique_ptr<Log> log_;
+  coupling::RunSummary summary_;
+};
+
+/// Checks what can be checked without a folder, then makes the folder.
+coupling::RunFolder prepareFolder(const SessionOptions& options) {
+  coupling::checkObjects(options.scene);
+  return coupling::RunFolder(options.folder);
+}
+
+Session::Session(const SessionOptions& options) : options_(options), folder_(prepareFolder(options)) {
+  std::optional<coupling::LoadedCheckpoint> loaded;
+  if (!options.restart) loaded = coupling::readNewestCheckpoint(folder_.checkpoints(), options.scene);
+  int step = 0, frame = 0;
+  if (loaded) {
+    step = loaded->state.step;
+    frame = loaded->state.frame;
+    simulation_ = std::make_unique<Simulation>(options.scene, std::move(loaded->state));
+  } else {
+    simulation_ = std::make_unique<Simulation>(options.scene);
+    folder_.clear();
+  }
+  log_ = std::make_unique<Log>(folder_.log());
+  if (loaded) {
+    for (const std::string& warning : loaded->warnings) log_->say("warning: " + warning);
+    log_->say("going on from " + loaded->path);
+  }
+  folder_.writeScene(options.scene);
+  statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame);
+  summary_.threads = options.threads;
+  summary_.switchedOff = coupling::switchedOff(options.scene);
+}
+
+void Session::begin() {
+  const coupling::Scene& scene = options_.scene;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %dx%dx%d cells of %.3g mm, %d frames at %g a second, %d threads",
+                scene.name.c_str(), simulation_->liquid().grid.cells.x(),
+                simulation_->liquid().grid.cells.y(), simulation_->liquid().grid.cells.z(),
+                1e3 * simulation_->liquid().grid.dx, scene.time.frames, scene.time.fps, options_.threads);
+  log_->say(text);
+  for (const coupling::Finding& finding : coupling::lintScene(scene))
+    if (finding.severity == coupling::Severity::warning)
+      log_->say("warning: " + finding.object + ": " + finding.message);
+}
+
+void Session::advance(Progress& progress, const StopRequest& stop) {
+  const Clock::time_point start = Clock::now();
+  const int frame = simulation_->frame() + 1;
+  const FrameReport report = simulation_->advanceFrame([&](const StepReport& step) {
+    statistics_->add(step);
+    progress.step(frame, step);
+    if (step.halvings > 0)
+      log_->write("step " + std::to_string(step.step) + ": halved " + std::to_string(step.halvings) +
+                  " times");
+    stop.check();
+  });
+  statistics_->add(report);
+  coupling::accumulate(summary_, report);
+  writeFrame(folder_, *simulation_);
+  if (finished() || simulation_->frame() % options_.scene.output.checkpointEvery == 0) writeCheckpoint();
+  progress.frame(report, secondsSince(start));
+}
+
+void Session::writeCheckpoint() {
+  coupling::writeCheckpoint(folder_.checkpoints(), options_.scene, simulation_->state());
+  writeSummary("running");
+}
+
+void Session::writeSummary(const std::string& status) {
+  summary_.status = status;
+  summary_.wallSeconds = secondsSince(start_);
+  summary_.bubbles = simulation_->bubbles().size();
+  coupling::writeRunJson(folder_.runJson(), options_.scene, summary_);
+}
+
+void Session::finish() {
+  if (options_.scene.output.preview) {
+    const std::string problem =
+        writeMovie(folder_.root() + "/preview", options_.scene.time.fps, folder_.movie());
+    if (!problem.empty()) log_->say(problem);
+  }
+  writeSummary("done");
+  log_->say("done: frame " + std::to_string(simulation_->frame()) + " after " +
+            formatDuration(secondsSince(start_)) + ", " + std::to_string(simulation_->bubbles().size()) +
+            " bubbles; see " + folder_.root());
+}
+
+ExitCode Session::run() {
+  if (finished()) {
+    log_->say("nothing to do: " + folder_.root() + " holds all " +
+              std::to_string(options_.scene.time.frames) + " frames; --restart runs them again");
+    return kDone;
+  }
+  begin();
+  try {
+    const StopRequest stop(options_.maxWall);
+    Progress progress(options_.scene.time.frames, Progress::onTerminal());
+    while (!finished()) advance(progress, stop);
+  } catch (const Stopped& stopped) {
+    writeCheckpoint();
+    writeSummary("stopped");
+    log_->say(std::string(stopped.what()) + " in frame " + std::to_string(simulation_->frame() + 1) +
+              "; the same command goes on from the checkpoint");
+    return stopped.code();
+  } catch (const coupling::FileError& error) {
+    log_->write(error.what());
+    throw;
+  } catch (const std::exception& error) {  // the failed step left the state as it was
+    writeCheckpoint();
+    writeSummary("failed");
+    log_->write(error.what());
+    throw;
+  }
+  finish();
+  return kDone;
+}
+
+}  // namespace
+
+ExitCode runSession(const SessionOptions& options) { return Session(options).run(); }
+
+}  // namespace spume::apps

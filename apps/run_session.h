@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/exit_code.h"
+#include "coupling/scene.h"
+
+namespace spume::apps {
+
+/// What one call of `spume run` does.
+struct SessionOptions {
+  coupling::Scene scene;
+  std::string folder;
+  bool restart = false;           ///< start anew even if the folder holds a checkpoint
+  int threads = 1;                ///< recorded in run.json
+  std::optional<double> maxWall;  ///< [s]
+};
+
+/// Runs the scene to its last frame, or until it is asked to stop, with checkpoints on the way. Prints
+/// progress. Throws coupling::SceneError and FileError; a divergence leaves a checkpoint and is thrown as
+/// NumericalFailure.
+ExitCode runSession(const SessionOptions& options);
+
+}  // namespace spume::apps
