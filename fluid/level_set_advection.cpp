@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "fluid/cubic_interpolation.h"
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
 #include "fluid/sampling.h"
@@ -17,12 +18,6 @@ constexpr double kWenoCfl = 0.5;
 constexpr double kBandMargin = 2;
 /// Regulariser of the WENO smoothness measures, relative to the slope squared [Jiang, Peng 2000].
 constexpr float kWenoEpsilon = 1e-6f;
-
-/// Weights of the values at -1, 0, 1, 2 of the cubic through them, at t in [0, 1].
-std::array<float, 4> cubicWeights(float t) {
-  const float u = 1 - t;
-  return {-t * u * (1 + u) / 6, (1 + t) * u * (1 + u) / 2, t * (1 + t) * (1 + u) / 2, -t * u * (1 + t) / 6};
-}
 
 /// Tricubic value at a point in index units, limited to the eight values around it.
 float sampleCubic(const FieldView& f, float x, float y, float z) {

@@ -3,87 +3,124 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "fluid/cubic_interpolation.h"
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
 
 namespace spume::fluid {
 namespace {
 
-/// Distance of a point not reached yet [cells].
-constexpr float kFar = 1e6f;
 /// Layers of face-neighbour steps: along a space diagonal a step gains 1/sqrt(3) cells.
 constexpr int kLayers = 10;
-static_assert(kLayers * kLayers * 3 >= kLevelSetBand * kLevelSetBand * 8, "the band is not covered");
-/// Passes inside a layer, for points that hang on others of their own layer, and over all layers at the end.
-constexpr int kPassesInLayer = 2;
-constexpr int kFinalPasses = 2;
-/// A second difference above this [1 per cell, relative to the slope] is a kink, not a curvature: radius 1.7
-/// cells.
-constexpr float kKink = 0.6f;
-/// The distance may exceed the one along the nearest grid line by this factor before it counts as a wrong
-/// slope.
-constexpr float kSlopeSlack = 1.3f;
+static_assert(kLayers * kLayers >= kLevelSetBand * kLevelSetBand * 2, "the band is not covered");
+/// Extra rounds over all layers at the end, in which cells hear from all their neighbours once more.
+constexpr int kFinalPasses = 1;
+/// Newton steps towards the closest point; the start is off by O(|grad phi| - 1), each step squares that.
+constexpr int kNewtonSteps = 3;
+/// Newton is done when the point moves by less than this [cells].
+constexpr float kConverged = 1e-4f;
+/// A closest point further off than the crossing on the nearest grid line by this factor, or with a value
+/// above kMiss, is none: there the crossing itself is taken.
+constexpr float kCrossingSlack = 1.1f;
+constexpr float kMiss = 0.02f;
+/// Second differences above this [1/cells] are a kink, not a curvature (radius 2 cells).
+constexpr float kKink = 0.5f;
+/// Radius of the patch around a closest point [cells]: twice half the diagonal of a cell, because outwards a
+/// cell may hear of its nearest point's neighbour only. Beside a kink half of it.
+constexpr float kPatch = 1.5f;
+constexpr float kKinkPatch = 0.75f;
 
-/// Slope of phi along one axis at p: fourth-order central where phi is smooth, second-order beside a kink,
-/// the steeper side at a kink, 0 at an extremum.
-float axisSlope(const float* p, std::ptrdiff_t s, float scale) {
-  const float plus = p[s] - p[0], minus = p[0] - p[-s];
-  const float kink = kKink * scale;
-  if (std::abs(plus - minus) > kink) {
-    if (plus * minus <= 0) return 0;
-    return std::abs(plus) > std::abs(minus) ? plus : minus;
-  }
-  const float central = 0.5f * (plus + minus);
-  const float outerPlus = p[2 * s] - p[s], outerMinus = p[-s] - p[-2 * s];
-  if (std::abs(outerPlus - plus) > kink || std::abs(minus - outerMinus) > kink) return central;
-  return (8 * (plus + minus) - (outerPlus + plus + minus + outerMinus)) / 12;
-}
-
-/// Distance from p to the nearest crossing along the grid lines through it [cells], kFar if there is none.
-float nearestCrossing(const float* p, const std::array<std::ptrdiff_t, 3>& stride) {
-  float nearest = kFar;
-  for (const std::ptrdiff_t s : stride)
-    for (const float other : {p[s], p[-s]})
-      if ((other < 0) != (p[0] < 0)) nearest = std::min(nearest, p[0] / (p[0] - other));
+/// The crossing nearest to a cell along the grid lines through it.
+struct Crossing {
+  float distance;  ///< [cells]
+  int axis;
+  float direction;  ///< +-1
+};
+Crossing nearestCrossing(const float* p, const std::array<std::ptrdiff_t, 3>& stride) {
+  Crossing nearest{std::numeric_limits<float>::max(), 0, 1};
+  for (int a = 0; a < 3; ++a)
+    for (const int side : {-1, 1}) {
+      const float other = p[side * stride[a]];
+      if ((other < 0) == (p[0] < 0)) continue;
+      const float distance = p[0] / (p[0] - other);
+      if (distance < nearest.distance) nearest = {distance, a, static_cast<float>(side)};
+    }
   return nearest;
 }
 
-/// Upwind term c (d - t)^2 of one axis of the eikonal equation.
-struct UpwindTerm {
-  float t, c;
+/// The interpolant near a cell, in displacements from it [cells].
+struct Neighbourhood {
+  const float* p;
+  std::ptrdiff_t si, sj;
+  CubicValue at(const Eigen::Vector3f& d) const {
+    const Eigen::Vector3f base = d.array().floor();
+    const Eigen::Vector3f t = d - base;
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(base.x()) * si +
+                                  static_cast<std::ptrdiff_t>(base.y()) * sj +
+                                  static_cast<std::ptrdiff_t>(base.z());
+    return cubicValue(p + offset, si, sj, t.x(), t.y(), t.z());
+  }
 };
 
-/// Second-order upwind term along one axis on the side of sign `side` [Sethian 1999]; first order where the
-/// second point does not lie further up.
-UpwindTerm upwindTerm(const float* d, std::ptrdiff_t s, float side) {
-  const float plus = side * d[s], minus = side * d[-s];
-  const float near = std::min(plus, minus);
-  const float next = side * (plus < minus ? d[2 * s] : d[-2 * s]);
-  if (near >= kFar || next > near || next < near - 2) return {near, 1};
-  return {near + std::min(near - next, 1.0f) / 3, 2.25f};
+/// Result of the search for the closest point, as a displacement from the cell.
+struct ClosestPoint {
+  Eigen::Vector3f at, normal;
+  float slope;  ///< |grad phi| there [phi per cell]
+  bool found;
+};
+
+/// Newton on { phi(y) = 0, y parallel to grad phi(y) } from the cell's own gradient [Chopp 2001].
+ClosestPoint closestPoint(const Neighbourhood& phi, float maxDistance) {
+  ClosestPoint y{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0, false};
+  const float limit = std::min(kCrossingSlack * maxDistance + 0.1f, 1.5f);
+  float value = 0;
+  for (int step = 0; step <= kNewtonSteps; ++step) {
+    const CubicValue f = phi.at(y.at);
+    const Eigen::Vector3f gradient(f.gx, f.gy, f.gz);
+    y.slope = gradient.norm();
+    if (!(y.slope > 0)) return y;
+    y.normal = gradient / y.slope;
+    value = f.value / y.slope;
+    const Eigen::Vector3f next = (y.at.dot(y.normal) - value) * y.normal;
+    const float moved = (next - y.at).norm();
+    y.at = next;
+    if (next.norm() > limit) return y;
+    if (moved < kConverged) break;
+  }
+  y.found = std::abs(value) < kMiss;
+  return y;
 }
 
-/// Solves sum c (d - t)^2 = 1 over the axes that lie upwind of the result.
-float solveEikonal(std::array<UpwindTerm, 3> term) {
-  std::sort(term.begin(), term.end(), [](const UpwindTerm& a, const UpwindTerm& b) { return a.t < b.t; });
-  float a = 0, b = 0, c = -1, d = kFar;
-  for (const UpwindTerm& axis : term) {
-    if (axis.t >= d) break;
-    a += axis.c;
-    b += axis.c * axis.t;
-    c += axis.c * axis.t * axis.t;
-    const float root = b * b - a * c;
-    if (root < 0) break;
-    d = (b + std::sqrt(root)) / a;
-  }
-  return d;
+/// Distance from a point at offset r from the seed to the patch around it [cells].
+template <typename Seed>
+float patchDistance(const Seed& s, float rx, float ry, float rz) {
+  const float h = rx * s.nx + ry * s.ny + rz * s.nz;
+  const float tx = rx - h * s.nx, ty = ry - h * s.ny, tz = rz - h * s.nz;
+  const float tangential = std::sqrt(tx * tx + ty * ty + tz * tz);
+  const float onPatch = std::min(tangential, s.reach);
+  if (onPatch <= 0) return std::sqrt(rx * rx + ry * ry + rz * rz);
+  const float bend = (s.xx * tx * tx + s.yy * ty * ty + s.zz * tz * tz +
+                      2 * (s.xy * tx * ty + s.yz * ty * tz + s.zx * tz * tx)) /
+                     (tangential * tangential);
+  // The surface falls away by bend t^2/2 at t; parallel surfaces at distance h have curvature bend/(1 + h
+  // bend).
+  const float height = h + 0.5f * bend * onPatch * onPatch / std::max(1 + h * bend, 0.3f);
+  const float beyond = tangential - onPatch;
+  return beyond > 0 ? std::sqrt(height * height + beyond * beyond) : std::abs(height);
 }
 
 }  // namespace
 
 Reinitializer::Reinitializer(const GridSpec& grid)
-    : grid_(grid), layers_(grid.cells), distance_(grid.cells) {}
+    : grid_(grid), layers_(grid.cells), seedOf_(grid.cells, -1) {}
+
+Eigen::Vector3i Reinitializer::cellAt(std::ptrdiff_t offset) const {
+  const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
+  return {static_cast<int>(offset / si) - kGhost, static_cast<int>(offset % si / sj) - kGhost,
+          static_cast<int>(offset % sj) - kGhost};
+}
 
 void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBoundary* solids) {
   const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
@@ -104,67 +141,98 @@ void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBound
   });
 }
 
-void Reinitializer::fixInterface(const DenseField<float>& phi) {
-  const std::array<std::ptrdiff_t, 3> stride{phi.stride(0), phi.stride(1), 1};
-  const float dx = static_cast<float>(grid_.dx);
+Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, std::ptrdiff_t cell) const {
+  const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
+  const float* p = phi.data() + cell;
+  const Eigen::Vector3f centre = cellAt(cell).cast<float>();
+  const Crossing crossing = nearestCrossing(p, {si, sj, 1});
+  const ClosestPoint y = closestPoint({p, si, sj}, crossing.distance);
+  Seed seed{};
+  if (!y.found) {
+    Eigen::Vector3f at = centre;
+    at[crossing.axis] += crossing.direction * crossing.distance;
+    seed.x = at.x(), seed.y = at.y(), seed.z = at.z();
+    return seed;
+  }
+  const Eigen::Vector3f at = centre + y.at;
+  seed.x = at.x(), seed.y = at.y(), seed.z = at.z();
+  seed.nx = y.normal.x(), seed.ny = y.normal.y(), seed.nz = y.normal.z();
+  seed.reach = kPatch;
+  const auto second = [&](std::ptrdiff_t s) { return (p[s] - 2 * p[0] + p[-s]) / y.slope; };
+  const auto mixed = [&](std::ptrdiff_t s, std::ptrdiff_t t) {
+    return 0.25f * (p[s + t] - p[s - t] - p[t - s] + p[-s - t]) / y.slope;
+  };
+  const float xx = second(si), yy = second(sj), zz = second(1);
+  if (std::max({std::abs(xx), std::abs(yy), std::abs(zz)}) > kKink) {
+    seed.reach = kKinkPatch;
+    return seed;
+  }
+  seed.xx = xx, seed.yy = yy, seed.zz = zz;
+  seed.xy = mixed(si, sj), seed.yz = mixed(sj, 1), seed.zx = mixed(1, si);
+  return seed;
+}
+
+void Reinitializer::plantSeeds(const DenseField<float>& phi) {
   const auto cells = layers_.layer(0);
+  seeds_.resize(cells.size());
+  seedOf_.fill(-1);
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
-    const float* p = phi.data() + cells[n];
-    const float crossing = nearestCrossing(p, stride);
-    // The slope the kink test is measured by: a distorted phi is as smooth as its distance.
-    const float scale = std::max(std::abs(*p) / std::max(crossing, 0.1f), 0.25f * dx);
-    float square = 0;
-    for (const std::ptrdiff_t s : stride) {
-      const float slope = axisSlope(p, s, scale);
-      square += slope * slope;
-    }
-    float distance = std::abs(*p) / std::max(std::sqrt(square), 1e-12f * dx);
-    if (distance > kSlopeSlack * crossing) distance = crossing;
-    distance_.data()[cells[n]] = *p < 0 ? -distance : distance;
+    seeds_[n] = findSeed(phi, cells[n]);
+    seedOf_.data()[cells[n]] = static_cast<std::int32_t>(n);
   });
 }
 
-void Reinitializer::growLayer(int layer) {
-  const std::ptrdiff_t si = distance_.stride(0), sj = distance_.stride(1);
+void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
+  const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
+  const std::array<std::ptrdiff_t, 6> around{-si, si, -sj, sj, -1, 1};
   const auto cells = layers_.layer(layer);
   update_.resize(std::max(update_.size(), cells.size()));
-  float* data = distance_.data();
+  std::int32_t* seedOf = seedOf_.data();
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
-    const float* d = data + cells[n];
-    const float side = std::signbit(*d) ? -1.0f : 1.0f;
-    const float value =
-        solveEikonal({upwindTerm(d, si, side), upwindTerm(d, sj, side), upwindTerm(d, 1, side)});
-    update_[n] = side * std::min(value, kFar);
+    const Eigen::Vector3f x = cellAt(cells[n]).cast<float>();
+    std::int32_t best = -1;
+    float nearest = std::numeric_limits<float>::max();
+    const auto offer = [&](std::int32_t seed) {
+      if (seed < 0) return;
+      const Seed& s = seeds_[seed];
+      const float square =
+          (x.x() - s.x) * (x.x() - s.x) + (x.y() - s.y) * (x.y() - s.y) + (x.z() - s.z) * (x.z() - s.z);
+      if (square < nearest || (square == nearest && seed < best)) nearest = square, best = seed;
+    };
+    if (!outwardsOnly) offer(seedOf[cells[n]]);
+    for (const std::ptrdiff_t step : around) offer(seedOf[cells[n] + step]);
+    update_[n] = best;
   });
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) { data[cells[n]] = update_[n]; });
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) { seedOf[cells[n]] = update_[n]; });
 }
 
-void Reinitializer::restoreSigns(DenseField<float>& phi) const {
+void Reinitializer::measure(DenseField<float>& phi) const {
   const float dx = static_cast<float>(grid_.dx);
   const float band = kLevelSetBand;
   forEachRow(grid_.cells, [&](int i, int j) {
-    const float* d = &distance_(i, j, 0);
+    const std::int32_t* seedOf = &seedOf_(i, j, 0);
     const std::uint8_t* mark = &layers_.marks()(i, j, 0);
     float* p = &phi(i, j, 0);
-    for (int k = 0; k < grid_.cells.z(); ++k)
-      p[k] = mark[k] == LayerList::kBarred ? p[k] : dx * std::clamp(d[k], -band, band);
+    for (int k = 0; k < grid_.cells.z(); ++k) {
+      if (mark[k] == LayerList::kBarred) continue;
+      float distance = band;
+      if (seedOf[k] >= 0) {
+        const Seed& s = seeds_[seedOf[k]];
+        distance = std::min(patchDistance(s, i - s.x, j - s.y, k - s.z), band);
+      }
+      p[k] = p[k] < 0 ? -dx * distance : dx * distance;
+    }
   });
 }
 
 void Reinitializer::apply(DenseField<float>& phi, const SolidBoundary* solids) {
   markInterface(phi, solids);
   layers_.grow(kLayers);
-  const std::ptrdiff_t count = phi.count();
-  tbb::parallel_for(std::ptrdiff_t{0}, phi.size().x() + std::ptrdiff_t{2 * kGhost}, [&](std::ptrdiff_t i) {
-    const std::ptrdiff_t from = i * phi.stride(0), to = std::min(from + phi.stride(0), count);
-    for (std::ptrdiff_t n = from; n < to; ++n) distance_.data()[n] = phi.data()[n] < 0 ? -kFar : kFar;
-  });
-  fixInterface(phi);
-  for (int layer = 1; layer <= kLayers; ++layer)
-    for (int pass = 0; pass < kPassesInLayer; ++pass) growLayer(layer);
+  plantSeeds(phi);
+  for (int layer = 1; layer <= kLayers; ++layer) spreadLayer(layer, true), spreadLayer(layer, false);
   for (int pass = 0; pass < kFinalPasses; ++pass)
-    for (int layer = 1; layer <= kLayers; ++layer) growLayer(layer);
-  restoreSigns(phi);
+    for (int layer = 1; layer <= kLayers; ++layer) spreadLayer(layer, false);
+  measure(phi);
   fillGhostLayers(phi);
 }
 

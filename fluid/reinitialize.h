@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "fluid/dense_field.h"
 #include "fluid/grid_spec.h"
 #include "fluid/layer_list.h"
@@ -8,9 +11,10 @@
 namespace spume::fluid {
 
 /// Makes phi a signed distance again within kLevelSetBand cells without moving the surface; beyond, +-band
-/// with the sign kept. Cells next to the surface get phi/|grad phi|, then layers grow outwards by the
-/// second-order upwind eikonal equation [Sethian 1999; Jeong, Whitaker 2008]. Cells inside solids neither
-/// start nor carry distances. The result does not depend on the number of threads.
+/// with the sign kept. Every cell beside the surface finds its closest point on the cubic interpolant of phi
+/// [Saye 2014]; these points then spread outwards layer by layer, each with its normal and curvature, and a
+/// cell takes the distance to the curved patch around the nearest of them. Cells inside solids neither start
+/// nor carry distances. The result does not depend on the number of threads.
 class Reinitializer {
  public:
   explicit Reinitializer(const GridSpec& grid);
@@ -20,15 +24,25 @@ class Reinitializer {
   void apply(DenseField<float>& phi, const SolidBoundary* solids = nullptr);
 
  private:
+  /// A closest point: lengths in cells, positions in index units.
+  struct Seed {
+    float x, y, z;                 ///< on the surface
+    float nx, ny, nz;              ///< unit normal, towards phi > 0
+    float xx, yy, zz, xy, yz, zx;  ///< second derivatives of the distance [1/cells]
+    float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
+  };
+  Seed findSeed(const DenseField<float>& phi, std::ptrdiff_t cell) const;
   void markInterface(const DenseField<float>& phi, const SolidBoundary* solids);
-  void fixInterface(const DenseField<float>& phi);
-  void growLayer(int layer);
-  void restoreSigns(DenseField<float>& phi) const;
+  void plantSeeds(const DenseField<float>& phi);
+  void spreadLayer(int layer, bool outwardsOnly);
+  void measure(DenseField<float>& phi) const;
+  Eigen::Vector3i cellAt(std::ptrdiff_t offset) const;
 
   GridSpec grid_;
   LayerList layers_;
-  DenseField<float> distance_;  ///< |phi| [cells], kFar where not known yet
-  std::vector<float> update_;
+  std::vector<Seed> seeds_;          ///< of the cells of layer 0, in their order
+  DenseField<std::int32_t> seedOf_;  ///< nearest seed known to a cell, -1 for none
+  std::vector<std::int32_t> update_;
 };
 
 }  // namespace spume::fluid

@@ -1,0 +1,190 @@
+#include "fluid/transport_study.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "fluid/level_set.h"
+#include "fluid/level_set_advection.h"
+#include "fluid/marker_correction.h"
+#include "fluid/marker_particles.h"
+#include "fluid/parallel.h"
+#include "fluid/reinitialize.h"
+
+namespace spume::fluid {
+namespace {
+
+/// Thickness of the slab that stands for a plane.
+constexpr int kSlabCells = 4;
+constexpr int kSamples = 8;
+
+/// A domain without solids whose sides are open, except those that cut a slab out of a plane.
+SolidBoundary openSpace(const GridSpec& grid) {
+  SolidBoundary solids;
+  const float far = static_cast<float>(grid.dx * grid.cells.maxCoeff());
+  solids.psi = DenseField<float>(grid.cells, far);
+  solids.object = DenseField<std::int16_t>(grid.cells, -1);
+  solids.open = MacField<float>(grid.cells, 1);
+  solids.velocity = MacField<float>(grid.cells, 0);
+  solids.prescribed = MacField<std::uint8_t>(grid.cells, 0);
+  solids.cellFraction = DenseField<float>(grid.cells, 1);
+  return solids;
+}
+
+GridSpec gridOf(const TransportCase& scene, int cells) {
+  GridSpec grid;
+  grid.dx = scene.size.maxCoeff() / cells;
+  for (int a = 0; a < 3; ++a) grid.cells[a] = static_cast<int>(std::lround(scene.size[a] / grid.dx));
+  if (scene.planar) grid.cells.z() = kSlabCells;
+  return grid;
+}
+
+void sampleField(const TransportCase& scene, const GridSpec& grid, double t, MacVelocity& velocity) {
+  for (int a = 0; a < 3; ++a)
+    forEachCell(velocity[a].size(), [&](int i, int j, int k) {
+      velocity[a](i, j, k) = static_cast<float>(scene.velocity(grid.faceCentre(a, i, j, k), t)[a]);
+    });
+  fillGhostLayers(velocity);
+}
+
+double fastest(const MacVelocity& velocity) {
+  float m = 0;
+  for (const DenseField<float>& f : velocity.axis)
+    for (int i = 0; i < f.size().x(); ++i)
+      for (int j = 0; j < f.size().y(); ++j)
+        for (int k = 0; k < f.size().z(); ++k) m = std::max(m, std::abs(f(i, j, k)));
+  return m;
+}
+
+/// Everything one run holds.
+struct Study {
+  const TransportCase& scene;
+  const TransportOptions& options;
+  LiquidState state;
+  SolidBoundary solids;
+  DomainWalls walls;
+  LevelSetAdvection advection;
+  Reinitializer reinitializer;
+  MarkerSorter sorter;
+  MarkerSeeder positiveSeeder, negativeSeeder;
+  MarkerCorrection correction;
+
+  Study(const TransportCase& s, const TransportOptions& o, const GridSpec& grid)
+      : scene(s),
+        options(o),
+        solids(openSpace(grid)),
+        advection(grid),
+        reinitializer(grid),
+        sorter(grid),
+        positiveSeeder(grid),
+        negativeSeeder(grid) {
+    state.grid = grid;
+    state.velocity = MacVelocity(grid.cells);
+    walls.closed.fill(false);
+    walls.closed[4] = walls.closed[5] = s.planar;
+    initialiseLevelSet(grid, s.phi0, state.phi);
+    if (options.markers) reseed();
+  }
+
+  MarkerScene markerScene() const { return {state.grid, options.params, walls, solids}; }
+  void reseed();
+  void correct();
+  void step(double t, double dt);
+};
+
+void Study::reseed() {
+  positiveSeeder.reseed(markerScene(), state.phi, MarkerSign::positive, state.subSteps, state.positive);
+  negativeSeeder.reseed(markerScene(), state.phi, MarkerSign::negative, state.subSteps, state.negative);
+}
+
+void Study::correct() {
+  if (options.markers)
+    correction.apply(static_cast<float>(state.grid.dx), state.positive, state.negative, state.phi);
+}
+
+void Study::step(double t, double dt) {
+  sampleField(scene, state.grid, t + 0.5 * dt, state.velocity);
+  advection.advance(options.params.levelSetTransport, state.velocity, dt, state.phi);
+  if (options.markers)
+    for (MarkerSet* markers : {&state.positive, &state.negative}) {
+      advectMarkers(markerScene(), state.velocity, dt, *markers);
+      sorter.compact(*markers);
+    }
+  correct();
+  if (options.reinitialise) reinitializer.apply(state.phi);
+  correct();
+  ++state.subSteps;
+  state.time = t + dt;
+  if (!options.markers) return;
+  adjustRadii(markerScene(), state.phi, MarkerSign::positive, state.positive);
+  adjustRadii(markerScene(), state.phi, MarkerSign::negative, state.negative);
+  if (state.subSteps % options.params.reseedInterval == 0) reseed();
+}
+
+/// Compares the end with the exact start, which it should have come back to.
+void compare(const Study& study, TransportResult& result) {
+  const GridSpec& grid = study.state.grid;
+  const DenseField<float> exact = sampledFraction(grid, study.scene.phi0);
+  DenseField<float> end(grid.cells);
+  computeLiquidFraction(study.state.phi, study.solids, static_cast<float>(grid.dx), end);
+  double volume = 0, volume0 = 0, difference = 0, area = 0;
+  for (int i = 0; i < grid.cells.x(); ++i)
+    for (int j = 0; j < grid.cells.y(); ++j)
+      for (int k = 0; k < grid.cells.z(); ++k) {
+        volume += end(i, j, k);
+        volume0 += exact(i, j, k);
+        difference += std::abs(end(i, j, k) - exact(i, j, k));
+        const Eigen::Vector3d x = grid.cellCentre(i, j, k);
+        area += std::abs(study.scene.phi0(x)) < grid.dx ? 0.5 : 0;  // a layer two cells thick holds it
+      }
+  const double depth = study.scene.planar ? kSlabCells * grid.dx : 1;
+  result.volumeChange = (volume - volume0) / volume0;
+  result.shapeError = difference * grid.cellVolume() / depth;
+  result.interfaceError = difference / std::max(area, 1.0) * grid.dx;
+}
+
+}  // namespace
+
+DenseField<float> sampledFraction(const GridSpec& grid,
+                                  const std::function<double(const Eigen::Vector3d&)>& phi0) {
+  DenseField<float> fraction(grid.cells);
+  forEachCell(grid.cells, [&](int i, int j, int k) {
+    const Eigen::Vector3d centre = grid.cellCentre(i, j, k);
+    const double value = phi0(centre);
+    if (std::abs(value) > grid.dx) {
+      fraction(i, j, k) = value < 0;
+      return;
+    }
+    int below = 0;
+    for (int s = 0; s < kSamples * kSamples * kSamples; ++s) {
+      const Eigen::Vector3d at(s / (kSamples * kSamples), s / kSamples % kSamples, s % kSamples);
+      below += phi0(centre + grid.dx * ((at.array() + 0.5) / kSamples - 0.5).matrix()) < 0;
+    }
+    fraction(i, j, k) = static_cast<float>(below) / (kSamples * kSamples * kSamples);
+  });
+  return fraction;
+}
+
+TransportResult runTransport(const TransportCase& scene, const TransportOptions& options,
+                             const TransportWatch& watch) {
+  const GridSpec grid = gridOf(scene, options.cells);
+  Study study(scene, options, grid);
+  MacVelocity fastestField(grid.cells);
+  sampleField(scene, grid, 0, fastestField);
+  const double speed = fastest(fastestField);
+  TransportResult result;
+  result.steps = std::max(1, static_cast<int>(std::ceil(scene.duration * speed / (options.cfl * grid.dx))));
+  const double dt = scene.duration / result.steps;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  for (int n = 0; n < result.steps; ++n) {
+    study.step(n * dt, dt);
+    if (watch) watch(study.state, study.state.time);
+  }
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  compare(study, result);
+  result.state = std::move(study.state);
+  return result;
+}
+
+}  // namespace spume::fluid
