@@ -51,8 +51,8 @@ void DiscClipper::Lines::resize(std::size_t lines) {
   for (auto* column : {&ux, &uy, &offset, &shift, &t1, &t2}) column->resize(padded);
 }
 
-ClippedDisc DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls) {
-  ClippedDisc out;
+FilmShape DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls) {
+  FilmShape out;
   const double height = planes.height[face];
   const double discRadius2 = (balls.radius - height) * (balls.radius + height);
   if (!(discRadius2 > 0) || !findLines(planes, face, discRadius2) || !clipLines(discRadius2)) return out;
@@ -133,7 +133,7 @@ bool DiscClipper::clipLines(double discRadius2) {
 /// from t1 to t2 adds a triangle and takes its angle from the rim; the rim adds sectors of the disc and of
 /// the cap.
 void DiscClipper::integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
-                            ClippedDisc& out) const {
+                            FilmShape& out) const {
   const std::size_t m = lines_.count;
   const double near = std::abs(height), far = std::abs(balls.farHeight);
   const double near2 = near * near, far2 = far * far;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "foam/cell_sums.h"
 #include "foam/lane_math.h"
 
 namespace spume::foam {
@@ -19,17 +20,6 @@ struct CuttingPlanes {
   void resize(std::size_t planes);
 };
 
-/// What is left of a disc (radical plane inside the ball) after all other planes have cut it.
-struct ClippedDisc {
-  bool empty = true;
-  double area = 0;       ///< [m^2]
-  double areaShift = 0;  ///< what undoing the tie-breaking jitter adds to the area, to first order [m^2]
-  double arc = 0;        ///< angle of the disc's rim that is left, seen from the disc's centre, 0..2 pi
-  double solidNear =
-      0;  ///< solid angle of the film from the centre of the bubble that owns the planes, 0..2 pi
-  double solidFar = 0;  ///< the same from the other bubble's centre
-};
-
 /// The ball whose disc is clipped, and where the ball on the other side stands.
 struct DiscBalls {
   double radius, radiusShift;   ///< of the owner; what undoing the jitter adds to it [m]
@@ -41,7 +31,7 @@ struct DiscBalls {
 class DiscClipper {
  public:
   /// What the other planes leave of plane `face`'s disc. O(m^2) in the number m of planes that cut it.
-  ClippedDisc clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls);
+  FilmShape clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls);
 
  private:
   /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film.
@@ -58,7 +48,7 @@ class DiscClipper {
   bool findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2);
   bool clipLines(double discRadius2);
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
-                 ClippedDisc& out) const;
+                 FilmShape& out) const;
 
   std::vector<double> px_, py_, toPlane_, alongNormal_;  ///< of the planes, in the disc's frame
   Lines lines_;

@@ -6,13 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <string>
 
+#include "foam/ball_checks.h"
+#include "foam/cell_sums.h"
 #include "foam/disc_clipper.h"
-#include "foam/errors.h"
 #include "foam/overlap_pairs.h"
-#include "foam/tie_breaker.h"
 
 namespace spume::foam {
 
@@ -21,11 +19,6 @@ namespace {
 using Vector = Eigen::Vector3d;
 
 constexpr std::int32_t kGrain = 256;  ///< bubbles per parallel task
-constexpr double kRoundOffAngle =
-    1e-12;  ///< solid angles below this are zero: rounding of a sum of up to 1000 films
-/// Largest relative shift of a plane for which undoing the jitter is a small change: the error of first order
-/// is its square. Only nearly coincident centres exceed it; there the jitter decides, as for any tie.
-constexpr double kMaxRelativeShift = 1e-5;
 
 template <typename Body>
 void forEachBubble(std::int32_t count, const Body& body) {
@@ -35,18 +28,6 @@ void forEachBubble(std::int32_t count, const Body& body) {
 }
 
 enum class Relation : std::uint8_t { apart, crossing, contained };
-
-void validate(const std::vector<Vector>& position, const std::vector<double>& radius,
-              const std::vector<std::uint64_t>& id) {
-  if (radius.size() != position.size() || id.size() != position.size())
-    throw InvalidParameter("PowerCells: " + std::to_string(position.size()) + " positions, " +
-                           std::to_string(radius.size()) + " radii and " + std::to_string(id.size()) +
-                           " ids; give as many of each");
-  for (std::size_t i = 0; i < radius.size(); ++i)
-    if (!(radius[i] > 0) || !std::isfinite(radius[i]) || !position[i].allFinite())
-      throw InvalidParameter("PowerCells: bubble " + std::to_string(id[i]) + " has radius " +
-                             std::to_string(radius[i]) + " m; it must be positive, and the position finite");
-}
 
 }  // namespace
 
@@ -61,15 +42,14 @@ struct PowerCells::Internals {
 
   OverlapPairs near;
   std::vector<Vector> centre;
-  std::vector<double> radius, radiusShift;  ///< with jitter; what undoing it adds [m]
-  std::vector<double> weightShift;          ///< what undoing the jitter adds to r^2 [m^2]
+  std::vector<TieBrokenBall> ball;
   std::vector<std::uint8_t> hidden;
   std::vector<std::int32_t> crossings;   ///< number of balls whose sphere crosses the bubble's
   std::vector<Relation> relation;        ///< by slot
   std::vector<double> distance;          ///< by slot [m]
   std::vector<std::int32_t> pairOfSlot;  ///< by slot, -1 if apart
   std::vector<std::int32_t> firstPair;   ///< by input index: first overlap with this bubble as i
-  std::vector<ClippedDisc> disc;         ///< by pair; near side = owner
+  std::vector<FilmShape> disc;           ///< by pair; near side = owner
   std::vector<std::int32_t> filmCount;   ///< by input index, then summed
   tbb::enumerable_thread_specific<Scratch> scratch;
 
@@ -82,14 +62,11 @@ struct PowerCells::Internals {
   bool owns(std::int32_t s, std::int32_t t) const {
     return crossings[s] != crossings[t] ? crossings[s] < crossings[t] : near.order()[s] < near.order()[t];
   }
-  /// Signed distance of the radical plane from the centre of s, t being d away [m].
   double heightOf(std::int32_t s, std::int32_t t, double d) const {
-    return (d + (radius[s] - radius[t]) * ((radius[s] + radius[t]) / d)) / 2;
+    return radicalHeight(ball[s], ball[t], d);
   }
-  /// What undoing the jitter adds to that height [m].
   double heightShiftOf(std::int32_t s, std::int32_t t, double d) const {
-    const double shift = (weightShift[s] - weightShift[t]) / (2 * d);
-    return std::abs(shift) < kMaxRelativeShift * std::min(radius[s], radius[t]) ? shift : 0;
+    return radicalHeightShift(ball[s], ball[t], d);
   }
 
   void load(const std::vector<Vector>& position, const std::vector<double>& trueRadius,
@@ -108,14 +85,11 @@ void PowerCells::Internals::load(const std::vector<Vector>& position, const std:
                                  const std::vector<std::uint64_t>& id) {
   near.update(position, trueRadius);
   const std::size_t n = position.size();
-  centre.resize(n), radius.resize(n), radiusShift.resize(n), weightShift.resize(n);
-  hidden.resize(n), crossings.resize(n);
+  centre.resize(n), ball.resize(n), hidden.resize(n), crossings.resize(n);
   forEachBubble(size(), [&](std::int32_t s) {
     const std::int32_t i = near.order()[s];
     centre[s] = position[i];
-    radius[s] = tieBrokenRadius(trueRadius[i], id[i]);
-    radiusShift[s] = trueRadius[i] - radius[s];
-    weightShift[s] = radiusShift[s] * (trueRadius[i] + radius[s]);
+    ball[s] = {trueRadius[i], id[i]};
   });
 }
 
@@ -132,11 +106,11 @@ void PowerCells::Internals::relateRow(std::int32_t s) {
   crossings[s] = 0;
   for (std::int32_t slot = rowBegin(s); slot < rowEnd(s); ++slot) {
     const std::int32_t t = near.candidate()[slot];
-    const double d = (centre[t] - centre[s]).norm(), gap = radius[t] - radius[s];
+    const double d = (centre[t] - centre[s]).norm(), gap = ball[t].radius - ball[s].radius;
     distance[slot] = d;
-    relation[slot] = d >= radius[s] + radius[t] ? Relation::apart
-                     : d > std::abs(gap)        ? Relation::crossing
-                                                : Relation::contained;
+    relation[slot] = d >= ball[s].radius + ball[t].radius ? Relation::apart
+                     : d > std::abs(gap)                  ? Relation::crossing
+                                                          : Relation::contained;
     crossings[s] += relation[slot] == Relation::crossing;
     if (relation[slot] == Relation::contained)
       hidden[s] |= gap > 0 || (gap == 0 && near.order()[t] < near.order()[s]);
@@ -198,8 +172,8 @@ void PowerCells::Internals::clipRow(std::int32_t s, Scratch& local) {
   for (std::size_t k = 0; k < planes.count; ++k) {
     const std::int32_t slot = local.slot[k], t = near.candidate()[slot];
     if (!owns(s, t)) continue;
-    disc[pairOfSlot[slot]] =
-        local.clipper.clip(planes, k, {radius[s], radiusShift[s], radius[t], heightOf(t, s, distance[slot])});
+    disc[pairOfSlot[slot]] = local.clipper.clip(
+        planes, k, {ball[s].radius, ball[s].radiusShift, ball[t].radius, heightOf(t, s, distance[slot])});
   }
 }
 
@@ -219,8 +193,7 @@ void PowerCells::Internals::listFilms(FoamTopology& out) {
       if (disc[pair].empty) continue;
       const std::int32_t s = near.rank()[i], t = near.rank()[overlap.j];
       const double height = heightOf(s, t, overlap.distance) + heightShiftOf(s, t, overlap.distance);
-      out.films[film] = {i, overlap.j, overlap.distance, height,
-                         std::max(0.0, disc[pair].area + disc[pair].areaShift)};
+      out.films[film] = {i, overlap.j, overlap.distance, height, disc[pair].trueArea()};
       overlap.film = film++;
     }
   });
@@ -232,38 +205,23 @@ void PowerCells::Internals::measureCells(FoamTopology& out) const {
   forEachBubble(size(), [&](std::int32_t s) { measureCell(s, out); });
 }
 
-/// Sums the films of one cell: S = r^2 (4 pi [all h >= 0] - sum sgn(h) W), V = (sum h A + r S)/3, then undoes
-/// the jitter with dV/dw and the change of the rims (model, "Foam geometry").
 void PowerCells::Internals::measureCell(std::int32_t s, FoamTopology& out) const {
-  const double r = radius[s], dr = radiusShift[s];
-  double solid = 0, pyramids = 0, volumeShift = 0, rimHeight = 0, rimShift = 0, films = 0;
-  bool centreInside = true, anyFilm = false;
+  CellSums sums(ball[s]);
   for (std::int32_t slot = rowBegin(s); slot < rowEnd(s) && !hidden[s]; ++slot) {
     if (!cuts(slot)) continue;
     const std::int32_t t = near.candidate()[slot];
-    const double h = heightOf(s, t, distance[slot]), dh = heightShiftOf(s, t, distance[slot]);
-    centreInside &= h >= 0;
-    const ClippedDisc& face = disc[pairOfSlot[slot]];
-    if (face.empty) continue;
-    anyFilm = true;
-    const double w = owns(s, t) ? face.solidNear : face.solidFar;
-    solid += h < 0 ? w : -w;
-    pyramids += h * face.area;
-    volumeShift += face.area * dh;
-    rimHeight += face.arc * h;
-    rimShift += face.arc * dh;
-    films += std::max(0.0, face.area + face.areaShift);
+    const double height = heightOf(s, t, distance[slot]);
+    sums.addPlane(height);
+    const FilmShape& film = disc[pairOfSlot[slot]];
+    if (!film.empty)
+      sums.addFilm(film, height, heightShiftOf(s, t, distance[slot]),
+                   owns(s, t) ? film.solidNear : film.solidFar);
   }
-  solid += centreInside ? 4 * std::numbers::pi : 0;
-  if (solid < kRoundOffAngle) solid = 0;
   const std::int32_t i = near.order()[s];
-  const double free = hidden[s] ? 0 : r * r * solid;
-  const double freeShift = (2 * free / r - rimHeight) * dr + r * rimShift;
-  const double volume = (pyramids + r * free) / 3 + volumeShift + free * dr;
-  out.hidden[i] = hidden[s] || (!anyFilm && free == 0);
-  out.volume[i] = out.hidden[i] ? 0 : std::max(0.0, volume);
-  out.freeArea[i] = free > 0 ? std::max(0.0, free + freeShift) : 0;
-  out.filmArea[i] = films;
+  out.hidden[i] = hidden[s] || sums.hidden();
+  out.volume[i] = out.hidden[i] ? 0 : sums.volume();
+  out.freeArea[i] = out.hidden[i] ? 0 : sums.freeArea();
+  out.filmArea[i] = sums.filmArea();
 }
 
 PowerCells::PowerCells() : internals_(std::make_unique<Internals>()) {}
@@ -273,7 +231,7 @@ PowerCells& PowerCells::operator=(PowerCells&&) noexcept = default;
 
 void PowerCells::compute(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
                          const std::vector<std::uint64_t>& id, FoamTopology& out) {
-  validate(position, radius, id);
+  checkBalls("PowerCells", position, radius, id);
   internals_->load(position, radius, id);
   internals_->relate();
   internals_->listOverlaps(out);

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "foam/foam_topology.h"
+
+namespace spume::foam {
+
+/// The global engine, kept as the reference for PowerCells: CGAL's regular triangulation of all balls with
+/// exact predicates and its alpha complex at alpha = 0 (model, "Foam geometry"). Same contract, ties decided
+/// by the same jitter; about 20 times slower, sequential, keeps nothing from call to call.
+class PowerDiagram {
+ public:
+  /// As PowerCells::compute. O(n log n) in practice. Throws InvalidParameter for the same reasons.
+  void compute(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
+               const std::vector<std::uint64_t>& id, FoamTopology& out);
+};
+
+/// All pairs i < j of balls whose unrestricted power cells share a face, sorted: the edges of the regular
+/// triangulation. Balls without a cell in the whole diagram have none. Same jitter and same errors as above.
+std::vector<std::pair<std::int32_t, std::int32_t>> powerDiagramEdges(
+    const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
+    const std::vector<std::uint64_t>& id);
+
+}  // namespace spume::foam
