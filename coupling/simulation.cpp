@@ -9,8 +9,8 @@
 #include "coupling/time_step.h"
 #include "coupling/vdb_liquid_sampler.h"
 #include "fluid/errors.h"
-#include "foam/classification.h"
 #include "foam/errors.h"
+#include "foam/forces/buoyancy.h"
 
 namespace spume::coupling {
 namespace {
