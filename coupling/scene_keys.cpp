@@ -125,6 +125,9 @@ KeyTable foamTable() {
           .key("drag_coefficient", &FoamParams::dragCoefficient, {0, 1e5, "kg/m^3"}, "c of Eq. 3")
           .choice("buoyancy_law", &FoamParams::buoyancyLaw, {"hydrostatic", "pressure_gradient"},
                   "Eq. 4, or from the liquid's pressure")
+          .choice("air_drag_law", &FoamParams::airDragLaw, {"coefficient", "stokes"},
+                  "of the air on bubbles aloft: Stokes with gas_viscosity, or air_drag_coefficient")
+          .key("air_drag_coefficient", &FoamParams::airDragCoefficient, {0, 1e3, "kg/s"}, "c_vis of Eq. 10")
           .key("added_mass", &FoamParams::addedMass, {0, 2, "-"}, "C_M, part of the inertia only")
           .key("liquid_adhesion", &FoamParams::liquidAdhesion, {0, 100, "N/m"}, "s_lad of Eq. 5")
           .key("wall_stiffness_factor", &FoamParams::wallStiffnessFactor, {0, 1000, "-"},
