@@ -39,6 +39,7 @@ void requireStructure(const FoamParams& p) {
 
 void requireSurroundings(const FoamParams& p) {
   requireRange("dragCoefficient", p.dragCoefficient, 0, 1e5, "kg/m^3");
+  requireRange("dragCoefficientLimit", p.dragCoefficientLimit, 0, 1, "m");
   requireRange("airDragCoefficient", p.airDragCoefficient, 0, 1e3, "kg/s");
   requireRange("addedMass", p.addedMass, 0, 2, "");
   requireRange("liquidAdhesion", p.liquidAdhesion, 0, 100, "N/m");

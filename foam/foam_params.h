@@ -33,6 +33,8 @@ struct FoamParams {
 
   DragLaw dragLaw = DragLaw::contaminated;
   double dragCoefficient = 500;  ///< c of Eq. 3 [kg/m^3], 0 to 1e5
+  /// largest radius c of Eq. 3 is used for in DragLaw::coefficient; contaminated above it [m], 0 to 1
+  double dragCoefficientLimit = 1;
   BuoyancyLaw buoyancyLaw = BuoyancyLaw::hydrostatic;
   AirDragLaw airDragLaw = AirDragLaw::stokes;
   double airDragCoefficient = 5e-8;  ///< c_vis of Eq. 10 in AirDragLaw::coefficient [kg/s], 0 to 1e3

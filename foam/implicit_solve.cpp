@@ -24,11 +24,11 @@ void ImplicitSolve::prepare(const BlockSystem& a) {
 SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double tolerance, double floor,
                                  int maxIterations, Vectors3& x) {
   const std::size_t n = a.size();
-  x.assign(n, Eigen::Vector3d::Zero());
   SolveReport report;
-  residual_ = b;
+  residual_.resize(n);
+  forEachIndex(n, [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
   const double size = std::sqrt(dot(b, b)), goal = std::max(tolerance * size, floor);
-  double norm = size;
+  double norm = std::sqrt(dot(residual_, residual_));
   report.converged = norm <= goal;
   if (report.converged) return report;
   prepare(a);

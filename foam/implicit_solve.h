@@ -15,7 +15,7 @@ struct SolveReport {
 /// calls. The result does not depend on the number of threads.
 class ImplicitSolve {
  public:
-  /// Solves A x = b from x = 0 until |b - A x| <= tolerance |b|, or `floor` [kg m/s], the round-off of b.
+  /// Solves A x = b from the given x until |b - A x| <= tolerance |b|, or `floor` [kg m/s], the round-off of b.
   /// Ends with a correction by a rigid motion of everything, so that total momentum changes by the outer
   /// forces alone to round-off. A result that did not converge is still the best one found.
   SolveReport solve(const BlockSystem& a, const Vectors3& b, double tolerance, double floor,

@@ -41,6 +41,12 @@ class Integrator {
 
  private:
   void assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours, double dt);
+  /// Closes and opens wall contacts to suit the motion found so far; true if any changed. A closed one is a
+  /// spring in the system, so it stops a bubble however its neighbours push (model, "wall contact").
+  bool updateContacts(double dt);
+  /// Adds (signedDt = dt) or removes (-dt) the wall's spring of bubble i, linearised at `velocity`.
+  void setWallSpring(const LoneBubble& lone, const Eigen::Vector3d& velocity, double signedDt, double dt,
+                     std::size_t i);
   double roundOff() const;
 
   const FoamParams& params_;
@@ -52,6 +58,7 @@ class Integrator {
   BlockSystem system_;
   Vectors3 impulse_, change_, velocity_;
   std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]
+  std::vector<std::uint8_t> closed_;  ///< 1: the wall's spring is closed
   ImplicitSolve solver_;
 };
 

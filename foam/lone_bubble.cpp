@@ -2,7 +2,6 @@
 
 #include "foam/forces/buoyancy.h"
 #include "foam/forces/drag.h"
-#include "foam/forces/wall_contact.h"
 
 namespace spume::foam {
 namespace {
@@ -26,8 +25,8 @@ double LoneBubble::surfaceStiffness(double phiAt) const {
 }
 
 Eigen::Vector3d LoneBubble::force(const Eigen::Vector3d& v, double dt) const {
-  return weight + surfaceForce(phiAfter(v, dt)) + dragForce(drag, v - liquidVelocity) - airDrag * v +
-         wallContact(wallStiffness, psiAfter(v, dt), wallGap) * awayFromWall;
+  const Eigen::Vector3d slip = v - liquidVelocity;
+  return weight + surfaceForce(phiAfter(v, dt)) + dragForce(drag, slip) - viscousDrag * slip - airDrag * v;
 }
 
 }  // namespace spume::foam

@@ -23,6 +23,7 @@ struct LoneBubble {
   double adhesion = 0;             ///< w s_lad [N/m]
   double drag = 0;                 ///< chi c r^2 [kg/m]
   double airDrag = 0;              ///< (1 - chi) c_vis [kg/s]
+  double viscousDrag = 0;          ///< against the slip, for a bubble afloat [kg/s]
   Eigen::Vector3d liquidVelocity;  ///< [m/s]
 
   double psi = 0;                ///< [m]
@@ -40,7 +41,7 @@ struct LoneBubble {
   Eigen::Vector3d surfaceForce(double phiAt) const;
   /// d (up . surfaceForce) / d phi [N/m], <= 0: a growing force is frozen.
   double surfaceStiffness(double phiAt) const;
-  /// All of it at the end of a step of dt [s] with velocity v [N].
+  /// All but the wall at the end of a step of dt [s] with velocity v [N].
   Eigen::Vector3d force(const Eigen::Vector3d& v, double dt) const;
 };
 

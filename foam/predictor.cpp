@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "foam/forces/drag.h"
-#include "foam/forces/wall_contact.h"
 
 namespace spume::foam {
 namespace {
@@ -35,22 +34,19 @@ double increasingRoot(const Function& f, double low, double high, double guess) 
   return x;
 }
 
-/// Slip w with (m + dt a + dt k |w|) w = m w0 + dt (F - a u) =: momentum; closed form in |w|.
-Vector3d slipUnderConstantForce(const Vector3d& momentum, double inertia, double dragPerStep) {
-  const double p = momentum.norm();
-  return 2 * momentum / (inertia + std::sqrt(inertia * inertia + 4 * dragPerStep * p));
-}
-
 /// The step's equation written for the slip w = v - u, so that drag is central.
 struct SlipEquation {
   const LoneBubble& bubble;
   double dt;
-  double inertia;      ///< m + dt a
+  double inertia;      ///< m + dt (a + viscous)
   double dragPerStep;  ///< dt k
   Vector3d momentum;   ///< m w0 + dt (constant forces - a u): all but the surface force
 
   SlipEquation(const LoneBubble& b, double step)
-      : bubble(b), dt(step), inertia(b.mass + step * b.airDrag), dragPerStep(step * b.drag) {
+      : bubble(b),
+        dt(step),
+        inertia(b.mass + step * (b.airDrag + b.viscousDrag)),
+        dragPerStep(step * b.drag) {
     momentum = b.mass * (b.velocity - b.liquidVelocity) + step * (b.weight - b.airDrag * b.liquidVelocity);
   }
 
@@ -113,15 +109,6 @@ bool surfaceForceIsConstant(const LoneBubble& b, double phiEnd) {
   return deep || high;
 }
 
-/// A bubble on its way into a wall is stopped there by the wall's spring.
-Vector3d stoppedByWall(const LoneBubble& b, Vector3d v, double dt) {
-  const double depth = b.wallGap - b.psiAfter(v, dt);
-  const double slope2 = b.awayFromWall.squaredNorm();
-  if (depth <= 0 || slope2 == 0) return v;
-  const double inertia = b.mass + dt * (b.airDrag + b.drag * (v - b.liquidVelocity).norm());
-  return v + dt * b.wallStiffness * depth / (inertia + dt * dt * b.wallStiffness * slope2) * b.awayFromWall;
-}
-
 /// Slope of a force of one variable between two points of it, never positive; the tangent where they
 /// coincide.
 double chord(double change, double distance, double scale, double tangent) {
@@ -129,33 +116,36 @@ double chord(double change, double distance, double scale, double tangent) {
   return std::abs(distance) > kClose * scale ? std::min(0.0, change / distance) : tangent;
 }
 
+/// Makes `matrix` turn the motion p = v* - v0 into the impulse that holds the bubble at v0, by a change along
+/// p alone.
+void matchHoldingImpulse(const Vector3d& p, const Vector3d& impulse, Eigen::Matrix3d& matrix) {
+  constexpr double kStill = 1e-30;  // [m/s] no motion: its square would leave the range of doubles
+  const double speed = p.norm();
+  if (!(speed > kStill)) return;
+  const Vector3d along = p / speed;
+  const double wanted = along.dot(impulse) / speed;
+  if (wanted > 0) matrix += (wanted - along.dot(matrix * along)) * along * along.transpose();
+}
+
 }  // namespace
 
 Vector3d predictVelocity(const LoneBubble& b, double dt) {
-  const SlipEquation equation(b, dt);
-  const Vector3d constant = equation.momentum + dt * b.surfaceForce(b.phi);
-  Vector3d slip = slipUnderConstantForce(constant, equation.inertia, equation.dragPerStep);
-  if (!surfaceForceIsConstant(b, b.phiAfter(b.liquidVelocity + slip, dt))) slip = slipAtSurface(equation);
-  return stoppedByWall(b, b.liquidVelocity + slip, dt);
+  const Vector3d start = b.velocity - b.liquidVelocity;
+  const Vector3d force = b.weight + b.surfaceForce(b.phi) - b.airDrag * b.velocity - b.viscousDrag * start;
+  const double inertia = b.mass + dt * (b.airDrag + b.viscousDrag);
+  const Vector3d end = b.liquidVelocity + slipAfter(start, force, b.drag, inertia, dt);
+  if (surfaceForceIsConstant(b, b.phiAfter(end, dt))) return end;
+  return b.liquidVelocity + slipAtSurface(SlipEquation(b, dt));
 }
 
 LinearMotion linearise(const LoneBubble& b, const Vector3d& predicted, double dt) {
   const double phiA = b.phiAfter(b.velocity, dt), phiB = b.phiAfter(predicted, dt);
-  const double psiA = b.psiAfter(b.velocity, dt), psiB = b.psiAfter(predicted, dt);
-  const Vector3d surfaceA = b.surfaceForce(phiA), surfaceB = b.surfaceForce(phiB);
-  const double wallB = wallContact(b.wallStiffness, psiB, b.wallGap);
-  const double wallChange = wallContact(b.wallStiffness, psiA, b.wallGap) - wallB;
-  const double surfaceSlope =
-      chord(b.up.dot(surfaceA - surfaceB), phiA - phiB, b.radius, b.surfaceStiffness(phiB));
-  const double wallSlope =
-      chord(wallChange, psiA - psiB, b.radius, wallContactSlope(b.wallStiffness, psiB, b.wallGap));
-  LinearMotion motion;
-  motion.velocity = predicted;
-  motion.impulse = dt * b.force(predicted, dt) - b.mass * (predicted - b.velocity);
-  motion.slope = meanDragJacobian(b.drag, b.velocity - b.liquidVelocity, predicted - b.liquidVelocity) -
-                 b.airDrag * Eigen::Matrix3d::Identity() +
-                 dt * b.phiSlope * surfaceSlope * b.up * b.up.transpose() +
-                 dt * wallSlope * b.awayFromWall * b.awayFromWall.transpose();
+  const double change = b.up.dot(b.surfaceForce(phiA) - b.surfaceForce(phiB));
+  const double stiffness = -chord(change, phiA - phiB, b.radius, b.surfaceStiffness(phiB));
+  LinearMotion motion{predicted, (b.mass + dt * (b.airDrag + b.viscousDrag)) * Eigen::Matrix3d::Identity()};
+  motion.matrix -= dt * meanDragJacobian(b.drag, b.velocity - b.liquidVelocity, predicted - b.liquidVelocity);
+  motion.matrix += dt * dt * b.phiSlope * stiffness * b.up * b.up.transpose();
+  matchHoldingImpulse(predicted - b.velocity, dt * b.force(b.velocity, dt), motion.matrix);
   return motion;
 }
 

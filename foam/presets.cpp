@@ -9,6 +9,7 @@ FoamParams paperPreset() {
   params.springFromSurfaceTension = false;
   params.dragLaw = DragLaw::coefficient;
   params.dragCoefficient = 500;
+  params.dragCoefficientLimit = 2.5e-3;  // above it a bubble of 500 kg/m^3 rises twice as fast as a real one
   params.buoyancyLaw = BuoyancyLaw::hydrostatic;
   params.airDragLaw = AirDragLaw::coefficient;
   return params;

@@ -11,11 +11,17 @@ constexpr double kSmallestRadius = 1e-7,
                  kLargestRadius = 1;  // [m] ends of the table: beyond them the end value holds
 // 256 nodes a decade keep linear interpolation of ln c within 1e-5 of the law, away from its one kink.
 constexpr int kNodesPerDecade = 256;
+constexpr double kLongTime =
+    300;  // relaxation times after which nothing is left; cosh would overflow beyond 700
 constexpr double kEarthGravity = 9.80665;  // [m/s^2] defines C_D(d) when gravity is off
 
 double gravityOf(const FoamParams& params) {
   const double g = params.gravity.norm();
   return g > 0 ? g : kEarthGravity;
+}
+
+bool hasConstantCoefficient(const FoamParams& params, double radius) {
+  return params.dragLaw == DragLaw::coefficient && radius <= params.dragCoefficientLimit;
 }
 
 /// c in c r^2 v^2 = 4/3 pi r^3 (rho - rho_gas) g at the terminal speed.
@@ -25,6 +31,23 @@ double coefficientAtTerminalSpeed(const FoamParams& params, double radius) {
 }
 
 double nodePosition(double radius) { return std::log10(radius / kSmallestRadius) * kNodesPerDecade; }
+
+/// Solution of y' = 1 - |y| y, and the share of a small slip across it that is left.
+struct ScaledSlip {
+  double along, acrossShare;
+};
+
+ScaledSlip scaledSlipAfter(double start, double time) {
+  if (start < 0) {  // against the force: y' = 1 + y^2, y = tan, until the motion turns
+    const double angle = std::atan(start), turned = angle + time;
+    if (turned <= 0) return {std::tan(turned), std::cos(angle) / std::cos(turned)};
+    const ScaledSlip after = scaledSlipAfter(0, turned);
+    return {after.along, std::cos(angle) * after.acrossShare};
+  }
+  // y = (y0 + tanh t) / (1 + y0 tanh t), below the terminal speed and above it.
+  const double growth = std::tanh(time), fade = 1 + start * growth;
+  return {(start + growth) / fade, 1 / (std::cosh(std::min(time, kLongTime)) * fade)};
+}
 
 }  // namespace
 
@@ -41,8 +64,9 @@ double dragCoefficientAt(const FoamParams& params, double diameter, double speed
 
 double terminalSpeed(const FoamParams& params, double diameter) {
   const double drive = std::max(params.density - params.gasDensity, 0.0) * gravityOf(params);
-  if (params.dragLaw == DragLaw::coefficient)
+  if (hasConstantCoefficient(params, 0.5 * diameter))
     return std::sqrt(2 * std::numbers::pi * diameter * drive / (3 * params.dragCoefficient));
+  // Above the limit of the constant coefficient the contaminated law holds, as dragCoefficientAt() takes it.
   // C_D v^2 grows with v from 0 without bound: bisection in ln v cannot fail.
   const double wanted = 4 * diameter * drive / (3 * params.density);
   double low = std::log(1e-12), high = std::log(1e6);
@@ -54,22 +78,30 @@ double terminalSpeed(const FoamParams& params, double diameter) {
 }
 
 DragLawTable::DragLawTable(const FoamParams& params) {
-  constant_ = params.dragCoefficient;
-  if (params.dragLaw == DragLaw::coefficient) return;
+  if (params.dragLaw == DragLaw::coefficient)
+    constant_ = params.dragCoefficient, constantBelow_ = params.dragCoefficientLimit;
+  if (constantBelow_ >= kLargestRadius) return;
+  FoamParams physical = params;
+  if (params.dragLaw == DragLaw::coefficient) physical.dragLaw = DragLaw::contaminated;
   const int nodes = static_cast<int>(nodePosition(kLargestRadius)) + 2;
   for (int node = 0; node < nodes; ++node) {
     const double radius = kSmallestRadius * std::pow(10.0, static_cast<double>(node) / kNodesPerDecade);
-    logCoefficient_.push_back(std::log(coefficientAtTerminalSpeed(params, radius)));
+    logCoefficient_.push_back(std::log(coefficientAtTerminalSpeed(physical, radius)));
   }
 }
 
 double DragLawTable::operator()(double radius) const {
-  if (logCoefficient_.empty()) return constant_;
+  if (radius <= constantBelow_ || logCoefficient_.empty()) return constant_;
   const double last = static_cast<double>(logCoefficient_.size() - 1);
   const double position = std::clamp(nodePosition(radius), 0.0, last - 1e-9);
   const auto node = static_cast<std::size_t>(position);
   const double share = position - static_cast<double>(node);
   return std::exp((1 - share) * logCoefficient_[node] + share * logCoefficient_[node + 1]);
+}
+
+double viscousDragFactor(const FoamParams& params, double radius, double immersed) {
+  const double stokes = params.dragLaw == DragLaw::clean ? 4 : 6;
+  return stokes * std::numbers::pi * params.viscosity * radius * immersed;
 }
 
 Eigen::Vector3d dragForce(double k, const Eigen::Vector3d& slip) { return -k * slip.norm() * slip; }
@@ -78,6 +110,20 @@ Eigen::Matrix3d dragJacobian(double k, const Eigen::Vector3d& slip) {
   const double speed = slip.norm();
   if (speed == 0) return Eigen::Matrix3d::Zero();
   return -k * (speed * Eigen::Matrix3d::Identity() + slip * slip.transpose() / speed);
+}
+
+Eigen::Vector3d slipAfter(const Eigen::Vector3d& slip, const Eigen::Vector3d& force, double k, double mass,
+                          double dt) {
+  const double push = force.norm();
+  if (k == 0) return slip + dt / mass * force;
+  if (push == 0) return slip / (1 + dt * k * slip.norm() / mass);
+  const Eigen::Vector3d axis = force / push;
+  const double terminal = std::sqrt(push / k), along = axis.dot(slip);
+  const Eigen::Vector3d across = slip - along * axis;
+  const ScaledSlip end = scaledSlipAfter(along / terminal, dt * std::sqrt(push * k) / mass);
+  // What the slip across the force adds to the drag, beyond that of the motion along it.
+  const double extra = 1 + dt * k * (slip.norm() - std::abs(along)) / mass;
+  return (end.along * terminal * axis + end.acrossShare * across) / extra;
 }
 
 Eigen::Matrix3d meanDragJacobian(double k, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {

@@ -1,11 +1,9 @@
 #include "foam/forces/wall_contact.h"
 
-#include <algorithm>
-
 namespace spume::foam {
 
-double wallContact(double stiffness, double psi, double gap) { return stiffness * std::max(0.0, gap - psi); }
+double wallContact(double stiffness, double psi, double gap) { return stiffness * (gap - psi); }
 
-double wallContactSlope(double stiffness, double psi, double gap) { return psi < gap ? -stiffness : 0; }
+double wallContactSlope(double stiffness) { return -stiffness; }
 
 }  // namespace spume::foam
