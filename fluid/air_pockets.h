@@ -43,13 +43,18 @@ class AirPockets {
                                       const MacVelocity& velocity, DenseField<float>& phi);
 
   /// Pocket of each cell, -1 in liquid, solid and open air.
-  const DenseField<std::int32_t>& label() const { return pocketLabel_; }
+  const DenseField<std::int32_t>& label() const { return label_; }
   const std::vector<AirPocket>& pockets() const { return pockets_; }
 
  private:
+  template <typename Body>
+  void forEachMember(const GridSpec& grid, const Body& body);
+  void dropOpenAir(const GridSpec& grid);
+
   ConnectedCells connected_;
-  DenseField<std::int32_t> label_, pocketLabel_;
+  DenseField<std::int32_t> label_;
   std::vector<AirPocket> pockets_;
+  std::vector<std::uint8_t> outside_;  // per component of the air: reaches an open boundary
 };
 
 }  // namespace spume::fluid

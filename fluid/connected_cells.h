@@ -1,36 +1,77 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "fluid/dense_field.h"
-#include "fluid/solid_boundary.h"
 
 namespace spume::fluid {
 
-/// Labels the connected components of a set of cells; two cells are joined if the face between them is open.
-/// Works on runs along k, so its cost beyond one scan of the grid is that of the set's surface.
+/// Labels the connected components of a set of cells. Works on runs along k, so its cost beyond one scan of
+/// the grid is that of the set's surface. The order of the labels is that of the cells, not of any threads.
 class ConnectedCells {
  public:
-  /// `member(i, j, k)` tells whether a cell belongs to the set. Writes components 0, 1, ... in the order of
-  /// their first cells and -1 elsewhere, ghosts included; returns their number.
-  template <typename Member>
-  int label(const Eigen::Vector3i& cells, const SolidBoundary& boundary, const Member& member,
-            DenseField<std::int32_t>& label);
+  /// `member(i, j, k)`: whether a cell belongs to the set; `joined(axis, i, j, k)`: whether the minus face of
+  /// cell (i, j, k) across `axis` connects its two sides. Writes components 0, 1, ... in the order of their
+  /// first cells and -1 elsewhere, ghosts included; returns their number. `label` is resized if it does not
+  /// fit.
+  template <typename Member, typename Joined>
+  int label(const Eigen::Vector3i& cells, const Member& member, const Joined& joined,
+            DenseField<std::int32_t>& label) {
+    if (label.size() != cells) label = DenseField<std::int32_t>(cells, -1);
+    runs_.clear();
+    rowStart_.assign(1, 0);
+    for (int i = 0; i < cells.x(); ++i)
+      for (int j = 0; j < cells.y(); ++j) {
+        findRuns(i, j, cells.z(), member, joined);
+        const int row = static_cast<int>(rowStart_.size()) - 2;
+        if (i > 0) uniteRows(row - cells.y(), row, [&](int k) { return joined(0, i, j, k); });
+        if (j > 0) uniteRows(row - 1, row, [&](int k) { return joined(1, i, j, k); });
+      }
+    return write(cells, label);
+  }
 
  private:
   struct Run {
-    int begin, end;  // k range
-    std::int32_t parent;
+    int begin, end;       // k range
+    std::int32_t parent;  // of the union-find forest; never larger than the run's own number
   };
+
+  template <typename Member, typename Joined>
+  void findRuns(int i, int j, int nz, const Member& member, const Joined& joined) {
+    for (int k = 0; k < nz; ++k) {
+      if (!member(i, j, k)) continue;
+      const bool follows = static_cast<int>(runs_.size()) > rowStart_.back() && runs_.back().end == k;
+      if (follows && joined(2, i, j, k))
+        runs_.back().end = k + 1;
+      else
+        runs_.push_back({k, k + 1, static_cast<std::int32_t>(runs_.size())});
+    }
+    rowStart_.push_back(static_cast<std::int32_t>(runs_.size()));
+  }
+
+  template <typename JoinedAt>
+  void uniteRows(int lowerRow, int row, const JoinedAt& joinedAt) {
+    std::int32_t a = rowStart_[lowerRow], b = rowStart_[row];
+    while (a < rowStart_[lowerRow + 1] && b < rowStart_[row + 1]) {
+      const int begin = std::max(runs_[a].begin, runs_[b].begin), end = std::min(runs_[a].end, runs_[b].end);
+      for (int k = begin; k < end; ++k)
+        if (joinedAt(k)) {
+          unite(a, b);
+          break;
+        }
+      runs_[a].end < runs_[b].end ? ++a : ++b;
+    }
+  }
+
   std::int32_t root(std::int32_t run);
   void unite(std::int32_t a, std::int32_t b);
-  void uniteRows(int axis, int i, int j, int otherRow, int row, const SolidBoundary& boundary);
   int write(const Eigen::Vector3i& cells, DenseField<std::int32_t>& label);
 
   std::vector<Run> runs_;
   std::vector<std::int32_t> rowStart_;  // first run of each row, nx ny + 1 entries
-  std::vector<std::int32_t> number_;    // component of each root run
+  std::vector<std::int32_t> number_;    // component of each run
 };
 
 }  // namespace spume::fluid

@@ -67,17 +67,23 @@ class InflowSet {
   };
   struct Cell {
     Eigen::Vector3i cell;
-    float sdf;         // [m]
-    float source = 0;  // [1/s]
+    float sdf;  // [m]
+  };
+  struct Source {
+    Eigen::Vector3i cell;
+    float rate;  // [1/s]
   };
   struct Nozzle {
     std::vector<Face> faces;
-    std::vector<Cell> cells;  // inside or touching the region
-    Eigen::Vector3i deepest;
+    std::vector<Cell> cells;               // where the region lowers phi
+    std::vector<Eigen::Vector3i> touched;  // cells whose liquid volume it can change
+    std::vector<Source> sources;           // at its back
+    Eigen::Vector3i deepest = Eigen::Vector3i::Zero();
     bool open = false;
   };
   double scaleAt(const Inflow& inflow, double t) const;
-  void rasterise(const Inflow& inflow, Nozzle& nozzle) const;
+  Nozzle rasterise(const Inflow& inflow) const;
+  void addFace(const Inflow& inflow, int axis, const Eigen::Vector3i& c, Nozzle& nozzle) const;
   void setSpeed(std::size_t n, double t, const SolidBoundary& boundary);
   double fluctuation(std::size_t n, double t, const Eigen::Vector3d& x) const;
   void release(Nozzle& nozzle, SolidBoundary& boundary) const;

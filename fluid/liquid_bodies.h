@@ -12,7 +12,7 @@
 
 namespace spume::fluid {
 
-/// A maximal set of liquid cells (phi < 0) joined by open faces.
+/// A maximal set of liquid cells (phi < 0) joined by faces that are open or belong to an inflow.
 struct LiquidBody {
   std::ptrdiff_t cells = 0;
   double volume = 0;  ///< of the liquid, cells cut by the surface counted in part [m^3]
@@ -27,11 +27,12 @@ struct LiquidBodies {
   std::vector<LiquidBody> bodies;
   double volume = 0;  ///< of all liquid, fragments without a cell centre included [m^3]
 
-  /// Keeps its arrays between calls. Liquid in cells without an open face (inside solids) is not counted.
+  /// Keeps its arrays between calls. Cells without any free space (inside solids) are not counted.
   void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 
  private:
   ConnectedCells connected_;
+  DenseField<double> fraction_;  // liquid share of each cell
   void measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 };
 

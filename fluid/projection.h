@@ -6,7 +6,6 @@
 #include "fluid/dense_field.h"
 #include "fluid/fluid_params.h"
 #include "fluid/grid_spec.h"
-#include "fluid/liquid_bodies.h"
 #include "fluid/solid_boundary.h"
 
 namespace spume::fluid {
@@ -30,11 +29,11 @@ class Projection {
 
   /// `velocity` in: advected, without gravity; out: projected on valid() faces, the others untouched.
   /// `divergenceSource`: volume created per cell volume and time [1/s]. `pressureGradient` out: on valid
-  /// faces [Pa/m], 0 elsewhere. `bodies` found from the same phi and boundary. Throws NumericalFailure if the
+  /// faces [Pa/m], 0 elsewhere. Throws NumericalFailure if the
   /// solve does not reach the tolerance, and then velocity and pressureGradient are as before.
-  ProjectionReport project(const DenseField<float>& phi, const SolidBoundary& boundary,
-                           const LiquidBodies& bodies, double dt, const DenseField<float>& divergenceSource,
-                           MacVelocity& velocity, MacField<float>& pressureGradient);
+  ProjectionReport project(const DenseField<float>& phi, const SolidBoundary& boundary, double dt,
+                           const DenseField<float>& divergenceSource, MacVelocity& velocity,
+                           MacField<float>& pressureGradient);
 
   /// 1 on faces whose velocity the last project() set or that an inflow or a closed domain wall prescribes
   /// beside liquid: where extrapolation starts from.

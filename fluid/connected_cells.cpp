@@ -1,0 +1,37 @@
+#include "fluid/connected_cells.h"
+
+namespace spume::fluid {
+
+std::int32_t ConnectedCells::root(std::int32_t run) {
+  while (runs_[run].parent != run) {
+    runs_[run].parent = runs_[runs_[run].parent].parent;
+    run = runs_[run].parent;
+  }
+  return run;
+}
+
+void ConnectedCells::unite(std::int32_t a, std::int32_t b) {
+  a = root(a);
+  b = root(b);
+  runs_[std::max(a, b)].parent = std::min(a, b);
+}
+
+int ConnectedCells::write(const Eigen::Vector3i& cells, DenseField<std::int32_t>& label) {
+  int count = 0;
+  number_.resize(runs_.size());
+  for (std::int32_t run = 0; run < static_cast<std::int32_t>(runs_.size()); ++run) {
+    const std::int32_t first = root(run);  // comes no later than the run itself
+    number_[run] = first == run ? count++ : number_[first];
+  }
+  for (int i = 0; i < cells.x(); ++i)
+    for (int j = 0; j < cells.y(); ++j) {
+      std::int32_t* row = &label(i, j, 0);
+      std::fill_n(row, cells.z(), -1);
+      const int number = i * cells.y() + j;
+      for (std::int32_t run = rowStart_[number]; run < rowStart_[number + 1]; ++run)
+        std::fill(row + runs_[run].begin, row + runs_[run].end, number_[run]);
+    }
+  return count;
+}
+
+}  // namespace spume::fluid

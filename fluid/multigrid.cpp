@@ -1,0 +1,157 @@
+#include "fluid/multigrid.h"
+
+#include <algorithm>
+
+#include "fluid/pressure_rows.h"
+
+namespace spume::fluid {
+namespace {
+
+// The coarsest level has no edge longer than this [cells]; it is small enough for smoothing alone.
+constexpr int kCoarsestEdge = 4;
+// Double sweeps on the coarsest level, on each side of the middle: the error there falls by > 10 per pair.
+constexpr int kCoarsestSweeps = 6;
+// Cells of a coarse row restricted at once: their children's residuals stay in the first-level cache.
+constexpr int kPiece = 128;
+
+/// One coarse weight or excess: half the sum of the fine values at the given offsets.
+template <int count>
+float halfSum(const DenseField<float>& fine, const Eigen::Vector3i& at,
+              const Eigen::Vector3i (&offsets)[count]) {
+  float sum = 0;
+  for (const Eigen::Vector3i& offset : offsets) sum += fine(at + offset);
+  return 0.5f * sum;
+}
+
+void relaxRow(const PressureMatrix& m, const ActiveRow& row, int colour, const float* __restrict rhs,
+              float* x) {
+  const auto at = m.excess.index(row.i, row.j, 0);
+  const auto si = m.excess.stride(0), sj = m.excess.stride(1);
+  const float* __restrict wx = m.weight[0].data() + at;
+  const float* __restrict wy = m.weight[1].data() + at;
+  const float* __restrict wz = m.weight[2].data() + at;
+  const float* __restrict inverse = m.inverseDiagonal.data() + at;
+  const int parity = (row.i + row.j + colour) & 1;
+#pragma GCC ivdep
+  for (int k = row.begin; k < row.end; ++k) {  // both colours are computed, one is kept: this vectorises
+    const float value =
+        inverse[k] * (rhs[k] + wx[k] * x[k - si] + wx[k + si] * x[k + si] + wy[k] * x[k - sj] +
+                      wy[k + sj] * x[k + sj] + wz[k] * x[k - 1] + wz[k + 1] * x[k + 1]);
+    x[k] = (k & 1) == parity ? value : x[k];
+  }
+}
+
+/// Residual of cells [begin, begin + count) of row (i, j), 0 where there is no unknown.
+void residualPiece(const PressureMatrix& m, int i, int j, int begin, int count, const float* __restrict rhs,
+                   const float* __restrict x, float* __restrict residual) {
+  const auto at = m.excess.index(i, j, begin);
+  const auto si = m.excess.stride(0), sj = m.excess.stride(1);
+  const float* __restrict wx = m.weight[0].data() + at;
+  const float* __restrict wy = m.weight[1].data() + at;
+  const float* __restrict wz = m.weight[2].data() + at;
+  const float* __restrict excess = m.excess.data() + at;
+  const float* __restrict inverse = m.inverseDiagonal.data() + at;
+  for (int k = 0; k < count; ++k) {
+    const float c = x[k];
+    const float value = rhs[k] - wx[k] * (c - x[k - si]) - wx[k + si] * (c - x[k + si]) -
+                        wy[k] * (c - x[k - sj]) - wy[k + sj] * (c - x[k + sj]) - wz[k] * (c - x[k - 1]) -
+                        wz[k + 1] * (c - x[k + 1]) - excess[k] * c;
+    residual[k] = inverse[k] > 0 ? value : 0;
+  }
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const Eigen::Vector3i& cells) {
+  Eigen::Vector3i size = cells;
+  levels_.emplace_back(size);
+  while (size.maxCoeff() > kCoarsestEdge) {
+    size = (size + Eigen::Vector3i::Ones()) / 2;
+    levels_.emplace_back(size);
+  }
+}
+
+void Multigrid::coarsen() {
+  for (std::size_t n = 1; n < levels_.size(); ++n) {
+    aggregate(levels_[n - 1].matrix, levels_[n].matrix);
+    levels_[n].matrix.finish();
+  }
+}
+
+void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
+  // Children beyond an odd edge lie in the ghosts, where all coefficients are 0.
+  static const Eigen::Vector3i kFace[3][4] = {{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}},
+                                              {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}},
+                                              {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
+  static const Eigen::Vector3i kCell[8] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                                           {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  forEachCell(coarse.cells(), [&](int i, int j, int k) {
+    const Eigen::Vector3i at(2 * i, 2 * j, 2 * k);
+    for (int a = 0; a < 3; ++a) coarse.weight[a](i, j, k) = halfSum(fine.weight[a], at, kFace[a]);
+    coarse.excess(i, j, k) = halfSum(fine.excess, at, kCell);
+  });
+}
+
+void Multigrid::cycle(std::size_t depth) {
+  constexpr int kRed = 0, kBlack = 1;
+  Level& level = levels_[depth];
+  startSmooth(level);
+  smooth(level, kBlack);
+  if (depth + 1 < levels_.size()) {
+    restrictResidual(level, levels_[depth + 1]);
+    cycle(depth + 1);
+    addCorrection(levels_[depth + 1], level);
+  } else {
+    for (int n = 1; n < kCoarsestSweeps; ++n) smooth(level, kRed), smooth(level, kBlack);
+    for (int n = 1; n < kCoarsestSweeps; ++n) smooth(level, kBlack), smooth(level, kRed);
+  }
+  smooth(level, kBlack);
+  smooth(level, kRed);
+}
+
+/// The first red sweep from x = 0.
+void Multigrid::startSmooth(Level& level) {
+  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
+    const float* inverse = &level.matrix.inverseDiagonal(row.i, row.j, 0);
+    const float* rhs = &level.rhs(row.i, row.j, 0);
+    float* x = &level.x(row.i, row.j, 0);
+    const int parity = (row.i + row.j) & 1;
+    for (int k = row.begin; k < row.end; ++k) x[k] = (k & 1) == parity ? inverse[k] * rhs[k] : 0;
+  });
+}
+
+void Multigrid::smooth(Level& level, int colour) {
+  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
+    relaxRow(level.matrix, row, colour, &level.rhs(row.i, row.j, 0), &level.x(row.i, row.j, 0));
+  });
+}
+
+void Multigrid::restrictResidual(const Level& fine, Level& coarse) {
+  forEachActiveRow(coarse.matrix.rows, [&](const ActiveRow& row) {
+    for (int begin = row.begin; begin < row.end; begin += kPiece)
+      restrictPiece(fine, coarse, {row.i, row.j, begin, std::min(row.end, begin + kPiece)});
+  });
+}
+
+void Multigrid::restrictPiece(const Level& fine, Level& coarse, const ActiveRow& piece) {
+  const int count = piece.end - piece.begin;
+  float* sum = &coarse.rhs(piece.i, piece.j, piece.begin);
+  std::fill_n(sum, count, 0.0f);
+  alignas(64) float residual[2 * kPiece];
+  for (int n = 0; n < 4; ++n) {  // a child row beyond an odd edge lies in the ghosts and gives 0
+    const int i = 2 * piece.i + (n & 1), j = 2 * piece.j + (n >> 1), k = 2 * piece.begin;
+    residualPiece(fine.matrix, i, j, k, 2 * count, &fine.rhs(i, j, k), &fine.x(i, j, k), residual);
+    for (int m = 0; m < count; ++m) sum[m] += residual[2 * m] + residual[2 * m + 1];
+  }
+}
+
+void Multigrid::addCorrection(const Level& coarse, Level& fine) {
+  forEachActiveRow(fine.matrix.rows, [&](const ActiveRow& row) {
+    const float* correction = &coarse.x(row.i / 2, row.j / 2, 0);
+    const float* inverse = &fine.matrix.inverseDiagonal(row.i, row.j, 0);
+    float* x = &fine.x(row.i, row.j, 0);
+    for (int k = row.begin; k < row.end; ++k) x[k] += inverse[k] > 0 ? correction[k / 2] : 0;
+  });
+}
+
+}  // namespace spume::fluid

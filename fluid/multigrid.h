@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "fluid/dense_field.h"
+#include "fluid/pressure_system.h"
+
+namespace spume::fluid {
+
+/// Preconditioner for the pressure: one symmetric V(1,1) cycle in float. Levels are made by aggregating 2^3
+/// cells, interpolation is piecewise constant, and the coarse matrix is half the Galerkin product, which
+/// makes up for the over-stiff coarse space (model of [Braess 1995]): coarse weight = half the sum of its
+/// four fine ones, coarse excess = half the sum of its children's. Red-black Gauss-Seidel smooths, red first
+/// before the coarse correction and black first after it, so that x.My = y.Mx and conjugate gradients may use
+/// it.
+class Multigrid {
+ public:
+  explicit Multigrid(const Eigen::Vector3i& cells);
+
+  PressureMatrix& finest() { return levels_.front().matrix; }
+  const PressureMatrix& finest() const { return levels_.front().matrix; }
+
+  /// Makes the coarse levels; call after finest() has been assembled and finished.
+  void coarsen();
+
+  DenseField<float>& rightHandSide() { return levels_.front().rhs; }  ///< 0 where there is no unknown
+  const DenseField<float>& solution() const { return levels_.front().x; }
+  /// solution() = M rightHandSide().
+  void cycle() { cycle(0); }
+
+ private:
+  struct Level {
+    PressureMatrix matrix;
+    DenseField<float> x, rhs;
+    explicit Level(const Eigen::Vector3i& cells) : matrix(cells), x(cells), rhs(cells) {}
+  };
+  void cycle(std::size_t depth);
+  static void aggregate(const PressureMatrix& fine, PressureMatrix& coarse);
+  static void startSmooth(Level& level);
+  static void smooth(Level& level, int colour);
+  static void restrictResidual(const Level& fine, Level& coarse);
+  static void restrictPiece(const Level& fine, Level& coarse, const ActiveRow& piece);
+  static void addCorrection(const Level& coarse, Level& fine);
+
+  std::vector<Level> levels_;
+};
+
+}  // namespace spume::fluid
