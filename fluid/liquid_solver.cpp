@@ -194,7 +194,7 @@ void LiquidSolver::Internals::project(double dt, LiquidStepReport& report) {
   if (params.volumeControl) volumeControl.addSource(bodies, solids, dt, source);
   inflows.addSource(source);
   const ProjectionReport solve =
-      projection.project(state.phi, solids, bodies, dt, source, state.velocity, state.pressureGradient);
+      projection.project(state.phi, solids, dt, source, state.velocity, state.pressureGradient);
   report.pressureIterations += solve.iterations;
   report.pressureResidual = std::max(report.pressureResidual, solve.residual);
   report.divergence = std::max(report.divergence, solve.divergence);
