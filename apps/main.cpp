@@ -50,6 +50,7 @@ int parseAndPerform(int argc, char** argv) {
   addRun(program, action);
   addCheck(program, action);
   addInfo(program, action);
+  addRender(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

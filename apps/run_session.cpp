@@ -126,7 +126,7 @@ void Session::writeSummary(const std::string& status) {
 void Session::finish() {
   if (options_.scene.output.preview) {
     const std::string problem =
-        writeMovie(folder_.root() + "/preview", options_.scene.time.fps, folder_.movie());
+        writeMovie(folder_.root() + "/preview/preview", options_.scene.time.fps, folder_.movie());
     if (!problem.empty()) log_->say(problem);
   }
   writeSummary("done");

@@ -12,5 +12,6 @@ using Action = std::function<int()>;
 void addRun(CLI::App& program, Action& action);
 void addCheck(CLI::App& program, Action& action);
 void addInfo(CLI::App& program, Action& action);
+void addRender(CLI::App& program, Action& action);
 
 }  // namespace spume::apps

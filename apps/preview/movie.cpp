@@ -4,15 +4,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <system_error>
 #include <vector>
+
+#include "coupling/atomic_file.h"
 
 namespace spume::apps {
 namespace {
 
-constexpr int kNotFound = 127;   // the shell's code for a program that is not there
+constexpr int kNotFound = 127;  // the shell's code for a program that is not there
 
 /// Runs a program in silence and returns its exit code.
 int runQuietly(std::vector<std::string> words) {
@@ -34,19 +33,37 @@ int runQuietly(std::vector<std::string> words) {
 
 }  // namespace
 
-std::string writeMovie(const std::string& folder, double fps, const std::string& path) {
-  const std::string temporary = path + ".tmp";
-  const int code = runQuietly({"ffmpeg", "-y", "-framerate", std::to_string(fps), "-pattern_type", "glob", "-i",
-                               folder + "/preview.*.png", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264",
-                               "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4",
-                               temporary});
-  std::error_code error;
-  if (code == 0) std::filesystem::rename(temporary, path, error);
-  if (code == 0 && !error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  if (code == kNotFound) return "no movie: ffmpeg is not installed";
-  return "no movie: " + (error ? error.message() : "ffmpeg ended with code " + std::to_string(code));
+std::string writeMovie(const std::string& pictures, double fps, const std::string& path) {
+  try {
+    coupling::replaceFile(path, [&](const std::string& temporary) {
+      const int code = runQuietly({"ffmpeg",
+                                   "-y",
+                                   "-framerate",
+                                   std::to_string(fps),
+                                   "-pattern_type",
+                                   "glob",
+                                   "-i",
+                                   pictures + ".*.png",
+                                   "-vf",
+                                   "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                   "-c:v",
+                                   "libx264",
+                                   "-crf",
+                                   "18",
+                                   "-pix_fmt",
+                                   "yuv420p",
+                                   "-movflags",
+                                   "+faststart",
+                                   "-f",
+                                   "mp4",
+                                   temporary});
+      if (code == kNotFound) throw coupling::FileError("ffmpeg is not installed");
+      if (code != 0) throw coupling::FileError("ffmpeg ended with code " + std::to_string(code));
+    });
+  } catch (const coupling::FileError& error) {
+    return std::string("no movie: ") + error.what();
+  }
+  return {};
 }
 
 }  // namespace spume::apps

@@ -4,8 +4,8 @@
 
 namespace spume::apps {
 
-/// Joins the pictures preview.*.png of `folder`, in the order of their names, to the movie `path` with ffmpeg.
+/// Joins the pictures `pictures`.*.png, in the order of their names, to the movie `path` with ffmpeg.
 /// Returns an empty string, or why there is no movie; ffmpeg is never required.
-std::string writeMovie(const std::string& folder, double fps, const std::string& path);
+std::string writeMovie(const std::string& pictures, double fps, const std::string& path);
 
 }  // namespace spume::apps

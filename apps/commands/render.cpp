@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "apps/cache_listing.h"
+#include "apps/commands/commands.h"
+#include "apps/duration.h"
+#include "apps/exit_code.h"
+#include "apps/frame_output.h"
+#include "apps/preview/image.h"
+#include "apps/preview/movie.h"
+#include "apps/preview/renderer.h"
+#include "coupling/atomic_file.h"
+#include "coupling/bubble_cache.h"
+#include "coupling/liquid_cache.h"
+#include "coupling/scene_toml.h"
+
+namespace spume::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderOptions {
+  std::string folder, frames, size = "960x720", style = "beauty";
+  int samples = 2;
+};
+
+/// The two numbers of "A<separator>B", both at least 1; nothing if the text is of another form.
+std::optional<std::pair<int, int>> numberPair(const std::string& text, char separator) {
+  std::pair<int, int> pair{0, 0};
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, pair.first);
+  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != separator) return {};
+  const auto second = std::from_chars(first.ptr + 1, end, pair.second);
+  if (second.ec != std::errc{} || second.ptr != end || pair.first < 1 || pair.second < 1) return {};
+  return pair;
+}
+
+std::string sizeProblem(const std::string& text) {
+  constexpr int kLeast = 16, kMost = 16384;  // pixels; the limits of PreviewSettings
+  const auto size = numberPair(text, 'x');
+  const bool fits =
+      size && std::min(size->first, size->second) >= kLeast && std::max(size->first, size->second) <= kMost;
+  return fits ? "" : "\"" + text + "\" is no size: write WxH in pixels, each 16 to 16384, e.g. 1920x1080";
+}
+
+std::string framesProblem(const std::string& text) {
+  const auto range = numberPair(text.find('-') == std::string::npos ? text + "-" + text : text, '-');
+  return range && range->first <= range->second
+             ? ""
+             : "\"" + text + "\" are no frames: write A-B or A, e.g. 30-60";
+}
+
+std::pair<int, int> framesOf(const std::string& text) {
+  if (text.empty()) return {0, std::numeric_limits<int>::max()};
+  return *numberPair(text.find('-') == std::string::npos ? text + "-" + text : text, '-');
+}
+
+/// Bubbles of a frame from whichever cache the run wrote; none if it wrote neither.
+foam::BubbleStore bubblesOf(const std::string& folder, const std::string& liquidPath) {
+  std::string name = fs::path(liquidPath).stem().string();  // liquid.0001
+  name.replace(0, name.find('.'), "bubbles");
+  const std::string path = folder + "/bubbles/" + name;
+  if (fs::exists(path + ".vdb")) return coupling::readBubblesVdb(path + ".vdb").bubbles;
+  if (fs::exists(path + ".ply")) return coupling::readBubblesPly(path + ".ply").bubbles;
+  return {};
+}
+
+int render(const RenderOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const coupling::Scene scene = coupling::readScene(options.folder + "/scene.toml");
+  const CacheListing cache = listCache(options.folder + "/liquid", "liquid", "vdb");
+  const auto [first, last] = framesOf(options.frames);
+  const auto [width, height] = *numberPair(options.size, 'x');
+  const PreviewSettings settings{
+      .width = width,
+      .height = height,
+      .samples = options.samples,
+      .style = options.style == "classes" ? PreviewStyle::classes : PreviewStyle::beauty};
+  const std::string target = options.folder + "/render";
+  int done = 0;
+  for (std::size_t f = 0; f < cache.frames.size(); ++f) {
+    if (cache.frames[f] < first || cache.frames[f] > last) continue;
+    const coupling::LiquidFrame liquid = coupling::readLiquidFrame(cache.paths[f]);
+    const foam::BubbleStore bubbles = bubblesOf(options.folder, cache.paths[f]);
+    if (done++ == 0) coupling::createFolder(target);
+    const std::string number = fs::path(cache.paths[f]).stem().extension().string();  // .0001
+    const std::string path = target + "/" + options.style + number + ".png";
+    writePng(renderPreview(previewOf(scene, liquid.liquid, bubbles), settings), path);
+    std::cout << path << std::endl;
+  }
+  if (done == 0)
+    throw coupling::SceneError(options.folder + ": no cached liquid in these frames; it holds " +
+                               describeFrames(cache));
+  const std::string problem =
+      done > 1 ? writeMovie(target + "/" + options.style, scene.time.fps / scene.output.every,
+                            target + "/" + options.style + ".mp4")
+               : "";
+  if (!problem.empty()) std::cout << problem << '\n';
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  std::cout << "done: " << done << " pictures in " << formatDuration(spent.count()) << std::endl;
+  return kDone;
+}
+
+}  // namespace
+
+void addRender(CLI::App& program, Action& action) {
+  CLI::App* verb = program.add_subcommand(
+      "render", "Draws pictures, and a movie where ffmpeg is installed, from a run's caches.");
+  const auto options = std::make_shared<RenderOptions>();
+  verb->add_option("folder", options->folder, "folder of a run")->required()->type_name("DIR");
+  verb->add_option("--frames", options->frames, "A-B or A; default all")
+      ->check(CLI::Validator(framesProblem, "A-B"));
+  verb->add_option("--size", options->size, "pixels; default 960x720")
+      ->check(CLI::Validator(sizeProblem, "WxH"));
+  verb->add_option("--style", options->style,
+                   "beauty, or classes: blue in the liquid, green at the surface, orange in air")
+      ->check(CLI::IsMember({"beauty", "classes"}));
+  verb->add_option("--samples", options->samples, "per pixel and axis, 1 to 8; default 2")
+      ->check(CLI::Range(1, 8));
+  verb->footer(
+      "Examples:\n"
+      "  spume render out/pouring\n"
+      "  spume render out/pouring --frames 90 --size 1920x1440 --samples 3\n"
+      "  spume render out/pouring --style classes");
+  verb->callback([options, &action] { action = [options] { return render(*options); }; });
+}
+
+}  // namespace spume::apps
