@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fluid/dense_field.h"
@@ -50,12 +51,28 @@ class VolumeControl {
   double targetVolume() const;
 
  private:
+  struct GroupSum {
+    int bodies = 0;
+    double target = 0, liquid = 0, volume = 0, room = 0;  // [m^3]; liquid = volume less gas
+  };
+  void traceBack(const LiquidBodies& bodies, const MacVelocity& velocity, double dt);
+  void findGroups(const LiquidBodies& bodies);
+  void bookGas(const LiquidBodies& bodies, const ImmersedGas& gas);
+  void dealTargets(const LiquidBodies& bodies);
+  std::int32_t group(std::int32_t node);
+  void unite(std::int32_t a, std::int32_t b);
+
   GridSpec grid_;
-  FluidParams params_;
+  double relaxationTime_;  // [s]
   VolumeLedger ledger_;
   DenseField<std::int32_t> lastLabel_;
   std::vector<LiquidBody> lastBodies_;
   std::vector<double> gas_;  // immersed gas of each body [m^3]
+
+  std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> links_;  // (new, old) per i-slab
+  std::vector<std::int32_t> group_;  // union-find parents: new bodies, then old ones
+  std::vector<char> linked_;
+  std::vector<GroupSum> sums_;  // at the roots
 };
 
 }  // namespace spume::fluid

@@ -1,0 +1,236 @@
+#include "fluid/volume_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "fluid/errors.h"
+#include "fluid/liquid_solver.h"
+#include "fluid/parallel.h"
+
+namespace spume::fluid {
+namespace {
+
+// Relative volume error below which a body is left alone: what float phi cannot resolve would otherwise keep
+// a still pool moving. At 1e-8 and the default relaxation time a pool 4 cm deep would move at 8e-9 m/s.
+constexpr double kVolumeDeadband = 1e-8;
+// Largest error acted on, relative to the body's room: a drop of a few cells whose measured volume is mostly
+// noise grows or shrinks by no more than e^(1/2) per relaxation time.
+constexpr double kLargestError = 0.5;
+// How far from its place a lost body's heir, or a bubble's liquid, is looked for [cells].
+constexpr int kNearby = 4;
+
+/// Label with the largest volume within `reach` cells of a point, else -1.
+std::int32_t largestNear(const GridSpec& grid, const DenseField<std::int32_t>& label,
+                         const std::vector<LiquidBody>& bodies, const Eigen::Vector3d& x, int reach) {
+  const Eigen::Vector3i centre = grid.toCells(x).array().floor().cast<int>();
+  const Eigen::Vector3i low = (centre.array() - reach).max(0);
+  const Eigen::Vector3i high = (centre.array() + reach).min(grid.cells.array() - 1);
+  std::int32_t best = -1;
+  for (int i = low.x(); i <= high.x(); ++i)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int k = low.z(); k <= high.z(); ++k) {
+        const std::int32_t n = label(i, j, k);
+        if (n >= 0 && (best < 0 || bodies[n].volume > bodies[best].volume)) best = n;
+      }
+  return best;
+}
+
+std::int32_t largest(const std::vector<LiquidBody>& bodies) {
+  if (bodies.empty()) return -1;
+  const auto body =
+      std::max_element(bodies.begin(), bodies.end(),
+                       [](const LiquidBody& a, const LiquidBody& b) { return a.volume < b.volume; });
+  return static_cast<std::int32_t>(body - bodies.begin());
+}
+
+}  // namespace
+
+VolumeControl::VolumeControl(const GridSpec& grid, const FluidParams& params)
+    : grid_(grid),
+      relaxationTime_(params.volumeControlTime),
+      lastLabel_(grid.cells, -1),
+      links_(grid.cells.x()) {}
+
+void VolumeControl::start(const LiquidBodies& bodies) {
+  VolumeLedger ledger;
+  for (const LiquidBody& body : bodies.bodies) ledger.target.push_back(body.volume);
+  resume(bodies, std::move(ledger));
+}
+
+void VolumeControl::resume(const LiquidBodies& bodies, VolumeLedger ledger) {
+  if (ledger.target.size() != bodies.bodies.size())
+    throw InvalidParameter("volume ledger of " + std::to_string(ledger.target.size()) +
+                           " bodies for a liquid of " + std::to_string(bodies.bodies.size()) +
+                           ": it belongs to another state");
+  ledger_ = std::move(ledger);
+  gas_.assign(bodies.bodies.size(), 0);
+  lastLabel_ = bodies.label;
+  lastBodies_ = bodies.bodies;
+}
+
+double VolumeControl::bookOutflow(const DenseField<float>& phi, const SolidBoundary& boundary,
+                                  const MacVelocity& velocity, double dt) {
+  double drained = 0;
+  const double share = dt * grid_.dx * grid_.dx;
+  const auto bookFace = [&](int axis, int side, const Eigen::Vector3i& c) {
+    const Eigen::Vector3i face = side > 0 ? c + Eigen::Vector3i::Unit(axis) : c;
+    const std::int32_t body = lastLabel_(c);
+    const double speed = side * boundary.open[axis](face) * velocity[axis](face);
+    if (body < 0 || !(speed > 0)) return;
+    const double out =
+        std::min(ledger_.target[body], share * speed * liquidFraction(phi, c.x(), c.y(), c.z()));
+    ledger_.target[body] -= out;
+    drained += out;
+  };
+  for (int a = 0; a < 3; ++a)
+    for (int side : {-1, 1}) {
+      if (boundary.walls.closed[2 * a + (side > 0)]) continue;
+      const int b = (a + 1) % 3, d = (a + 2) % 3;
+      Eigen::Vector3i c;
+      c[a] = side > 0 ? grid_.cells[a] - 1 : 0;
+      for (c[b] = 0; c[b] < grid_.cells[b]; ++c[b])
+        for (c[d] = 0; c[d] < grid_.cells[d]; ++c[d]) bookFace(a, side, c);
+    }
+  return drained;
+}
+
+/// Notes which old body each cell's liquid came from, as pairs (new, old) without repeats within a slab.
+void VolumeControl::traceBack(const LiquidBodies& bodies, const MacVelocity& velocity, double dt) {
+  const float steps = static_cast<float>(0.5 * dt / grid_.dx);
+  const Eigen::Vector3i last = grid_.cells - Eigen::Vector3i::Ones();
+  tbb::parallel_for(0, grid_.cells.x(), [&](int i) {
+    std::vector<std::pair<std::int32_t, std::int32_t>>& links = links_[i];
+    links.clear();
+    for (int j = 0; j < grid_.cells.y(); ++j)
+      for (int k = 0; k < grid_.cells.z(); ++k) {
+        const std::int32_t body = bodies.label(i, j, k);
+        if (body < 0) continue;
+        const Eigen::Vector3f move(velocity[0](i, j, k) + velocity[0](i + 1, j, k),
+                                   velocity[1](i, j, k) + velocity[1](i, j + 1, k),
+                                   velocity[2](i, j, k) + velocity[2](i, j, k + 1));
+        const Eigen::Vector3i from =
+            Eigen::Vector3i(i, j, k) - (steps * move).array().round().matrix().cast<int>();
+        const std::int32_t old = lastLabel_(from.cwiseMax(0).cwiseMin(last));
+        if (old < 0 || (!links.empty() && links.back() == std::pair(body, old))) continue;
+        links.emplace_back(body, old);
+      }
+    std::sort(links.begin(), links.end());
+    links.erase(std::unique(links.begin(), links.end()), links.end());
+  });
+}
+
+std::int32_t VolumeControl::group(std::int32_t node) {
+  while (group_[node] != node) node = group_[node] = group_[group_[node]];
+  return node;
+}
+
+void VolumeControl::unite(std::int32_t a, std::int32_t b) {
+  a = group(a);
+  b = group(b);
+  group_[std::max(a, b)] = std::min(a, b);
+}
+
+/// Groups the new bodies (nodes 0 ...) and the old ones (nodes after them) by exchange of cells. A body that
+/// came or went without a trace joins the largest one nearby.
+void VolumeControl::findGroups(const LiquidBodies& bodies) {
+  const auto now = static_cast<std::int32_t>(bodies.bodies.size());
+  const auto old = static_cast<std::int32_t>(lastBodies_.size());
+  group_.resize(now + old);
+  std::iota(group_.begin(), group_.end(), 0);
+  std::vector<char>& linked = linked_;
+  linked.assign(now + old, 0);
+  for (const auto& links : links_)
+    for (const auto& [to, from] : links) {
+      unite(to, now + from);
+      linked[to] = linked[now + from] = 1;
+    }
+  for (std::int32_t n = 0; n < now + old; ++n) {
+    if (linked[n]) continue;
+    const bool isNew = n < now;
+    const Eigen::Vector3d& place = isNew ? bodies.bodies[n].centroid : lastBodies_[n - now].centroid;
+    std::int32_t heir = isNew ? largestNear(grid_, lastLabel_, lastBodies_, place, kNearby)
+                              : largestNear(grid_, bodies.label, bodies.bodies, place, kNearby);
+    if (heir < 0) heir = isNew ? largest(lastBodies_) : largest(bodies.bodies);
+    if (heir >= 0) unite(n, isNew ? now + heir : heir);
+  }
+}
+
+void VolumeControl::bookGas(const LiquidBodies& bodies, const ImmersedGas& gas) {
+  gas_.assign(bodies.bodies.size(), 0);
+  for (std::size_t b = 0; b < gas.volume.size(); ++b) {
+    std::int32_t body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], 0);
+    if (body < 0) body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], kNearby);
+    if (body >= 0) gas_[body] += gas.volume[b];
+  }
+}
+
+void VolumeControl::update(const LiquidBodies& bodies, const MacVelocity& velocity, double dt,
+                           const std::vector<PouredVolume>& poured, const ImmersedGas& gas) {
+  const std::size_t now = bodies.bodies.size();
+  traceBack(bodies, velocity, dt);
+  findGroups(bodies);
+  bookGas(bodies, gas);
+
+  sums_.assign(group_.size(), GroupSum{});
+  double homeless = ledger_.unassigned;
+  for (std::size_t n = 0; n < now; ++n) {
+    GroupSum& sum = sums_[group(n)];
+    ++sum.bodies;
+    sum.volume += bodies.bodies[n].volume;
+    sum.liquid += bodies.bodies[n].volume - gas_[n];
+    sum.room += bodies.bodies[n].room;
+  }
+  const auto give = [&](std::int32_t node, double target) {
+    const bool hasHeir = node >= 0 && sums_[group(node)].bodies > 0;
+    (hasHeir ? sums_[group(node)].target : homeless) += target;
+  };
+  for (std::size_t n = 0; n < lastBodies_.size(); ++n)
+    give(static_cast<std::int32_t>(now + n), ledger_.target[n]);
+  for (const PouredVolume& pour : poured) give(bodies.label(pour.cell), pour.volume);
+  const std::int32_t heir = largest(bodies.bodies);
+  if (heir >= 0) give(heir, std::exchange(homeless, 0));
+  ledger_.unassigned = homeless;
+  dealTargets(bodies);
+  lastLabel_ = bodies.label;
+  lastBodies_ = bodies.bodies;
+}
+
+/// Within a group every body gets its own liquid and a share of the group's error in proportion to its
+/// volume.
+void VolumeControl::dealTargets(const LiquidBodies& bodies) {
+  ledger_.target.resize(bodies.bodies.size());
+  for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
+    const GroupSum& sum = sums_[group(static_cast<std::int32_t>(n))];
+    const LiquidBody& body = bodies.bodies[n];
+    const double share = sum.volume > 0 ? body.volume / sum.volume : body.room / sum.room;
+    ledger_.target[n] =
+        sum.bodies == 1 ? sum.target : body.volume - gas_[n] + share * (sum.target - sum.liquid);
+  }
+}
+
+void VolumeControl::addSource(const LiquidBodies& bodies, const SolidBoundary& boundary, double dt,
+                              DenseField<float>& divergenceSource) const {
+  std::vector<float> rate(bodies.bodies.size(), 0);
+  const double relax = -std::expm1(-dt / relaxationTime_) / dt;
+  bool any = false;
+  for (std::size_t n = 0; n < rate.size(); ++n) {
+    const LiquidBody& body = bodies.bodies[n];
+    const double error = ledger_.target[n] + gas_[n] - body.volume;
+    if (!body.touchesAir || std::abs(error) <= kVolumeDeadband * body.volume) continue;
+    rate[n] = static_cast<float>(relax * std::clamp(error / body.room, -kLargestError, kLargestError));
+    any = true;
+  }
+  if (!any) return;
+  forEachCell(grid_.cells, [&](int i, int j, int k) {
+    const std::int32_t n = bodies.label(i, j, k);
+    if (n >= 0) divergenceSource(i, j, k) += rate[n] * boundary.cellFraction(i, j, k);
+  });
+}
+
+double VolumeControl::targetVolume() const {
+  return ledger_.total() + std::accumulate(gas_.begin(), gas_.end(), 0.0);
+}
+
+}  // namespace spume::fluid
