@@ -37,16 +37,21 @@ class OverlapPairs {
   const std::vector<std::int32_t>& mirror() const { return mirror_; }
 
  private:
-  struct CellTable;
+  struct Levels;
+  struct Sorted {
+    Eigen::Vector3d position;
+    double radius;
+  };
   using Half = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
   bool stillValid(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) const;
-  CellTable sortIntoCells();
-  Half findPairs(const CellTable& cells) const;
-  void fillRows(const Half& pairs);
+  Levels sortIntoCells();
+  std::vector<Half> findPairs(const Levels& levels) const;
+  void fillRows(const std::vector<Half>& found);
 
   std::vector<Eigen::Vector3d> builtPosition_;  ///< by input index
   std::vector<double> builtRadius_;
+  std::vector<Sorted> sorted_;  ///< the same by rank
   std::vector<std::int32_t> order_, rank_, rowStart_, candidate_, mirror_;
 };
 

@@ -31,8 +31,8 @@ inline void pushApart(Balls& balls, double wetness, double side, OverlapPairs& n
 /// pushed apart to the rest length. Wetness 0.8 gives about 6.7 contacts per bubble, 0.4 about 10.5.
 inline Balls relaxedFoam(int count, double wetness, std::uint64_t seed) {
   constexpr double kMedian = 0.5e-3, kSigma = 0.5, kSmallest = 0.15e-3, kLargest = 3e-3;
-  constexpr double kPacking = 0.64;  ///< of balls of half the rest length: random close packing
-  constexpr int kSweeps = 80;        ///< enough for the mean compression to fall below 1 %
+  constexpr double kPacking = 0.70;  ///< of balls of half the rest length: random close packing
+  constexpr int kSweeps = 120;       ///< enough for the mean compression to fall below 1 %
   Balls balls;
   double volume = 0;
   for (int i = 0; i < count; ++i) {
