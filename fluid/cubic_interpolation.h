@@ -43,4 +43,16 @@ inline CubicValue cubicValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t s
   return sum;
 }
 
+/// The same for the trilinear interpolant of the eight values of that cube.
+inline CubicValue linearValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float tx, float ty,
+                              float tz) {
+  const auto mix = [](float a, float b, float t) { return a + t * (b - a); };
+  const float c00 = mix(p[0], p[1], tz), c01 = mix(p[sj], p[sj + 1], tz);
+  const float c10 = mix(p[si], p[si + 1], tz), c11 = mix(p[si + sj], p[si + sj + 1], tz);
+  const float c0 = mix(c00, c01, ty), c1 = mix(c10, c11, ty);
+  const float d0 = mix(p[1] - p[0], p[sj + 1] - p[sj], ty);
+  const float d1 = mix(p[si + 1] - p[si], p[si + sj + 1] - p[si + sj], ty);
+  return {mix(c0, c1, tx), c1 - c0, mix(c01 - c00, c11 - c10, tx), mix(d0, d1, tx)};
+}
+
 }  // namespace spume::fluid

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fluid/cubic_interpolation.h"
+#include "fluid/kinks.h"
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
 #include "fluid/sampling.h"
@@ -19,22 +20,18 @@ constexpr double kBandMargin = 2;
 /// Regulariser of the WENO smoothness measures, relative to the slope squared [Jiang, Peng 2000].
 constexpr float kWenoEpsilon = 1e-6f;
 
-/// Tricubic value at a point in index units, limited to the eight values around it.
-float sampleCubic(const FieldView& f, float x, float y, float z) {
+/// Value of phi at a point in index units: cubic, limited to the eight values around it, or linear at kinks.
+float sampleSurface(const FieldView& f, const DenseField<float>& phi, const DenseField<std::uint8_t>& kinks,
+                    float x, float y, float z) {
   const CellBase b = cellBase(f, x, y, z);
-  const std::array<float, 4> wx = cubicWeights(b.fx), wy = cubicWeights(b.fy), wz = cubicWeights(b.fz);
   const float* p = f.corner + b.offset;
-  float sum = 0, low = *p, high = *p;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const float* row = p + (i - 1) * f.strideI + (j - 1) * f.strideJ;
-      sum += wx[i] * wy[j] * (wz[0] * row[-1] + wz[1] * row[0] + wz[2] * row[1] + wz[3] * row[2]);
-      if ((i == 1 || i == 2) && (j == 1 || j == 2)) {
-        low = std::min(low, std::min(row[0], row[1]));
-        high = std::max(high, std::max(row[0], row[1]));
-      }
-    }
-  return std::clamp(sum, low, high);
+  const int si = f.strideI, sj = f.strideJ;
+  const int i = b.offset / si - kGhost, j = b.offset % si / sj - kGhost, k = b.offset % sj - kGhost;
+  const bool inside = phi.contains(i, j, k);
+  if (!inside || cubeIsKinked(kinks, i, j, k)) return linearValue(p, si, sj, b.fx, b.fy, b.fz).value;
+  const auto [low, high] =
+      std::minmax({p[0], p[1], p[sj], p[sj + 1], p[si], p[si + 1], p[si + sj], p[si + sj + 1]});
+  return std::clamp(cubicValue(p, si, sj, b.fx, b.fy, b.fz).value, low, high);
 }
 
 /// Largest speed of any component on the grid [m/s].
@@ -98,7 +95,8 @@ LevelSetAdvection::LevelSetAdvection(const GridSpec& grid)
       rate_(grid.cells),
       centreU_(grid.cells),
       centreV_(grid.cells),
-      centreW_(grid.cells) {}
+      centreW_(grid.cells),
+      kinks_(grid.cells) {}
 
 void LevelSetAdvection::advance(LevelSetTransport transport, const MacVelocity& velocity, double dt,
                                 DenseField<float>& phi) {
@@ -110,6 +108,7 @@ void LevelSetAdvection::advance(LevelSetTransport transport, const MacVelocity& 
 
 void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, DenseField<float>& phi) {
   fillGhostLayers(phi);
+  markKinks(phi, kinks_);
   const MacView wind(velocity);
   const FieldView source(phi);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
@@ -127,7 +126,7 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
         continue;
       }
       const Velocity3f x = departure(wind, top, cellsPerSpeed, i + 0.5f, j + 0.5f, k + 0.5f);
-      next_(i, j, k) = sampleCubic(source, x.x - 0.5f, x.y - 0.5f, x.z - 0.5f);
+      next_(i, j, k) = sampleSurface(source, phi, kinks_, x.x - 0.5f, x.y - 0.5f, x.z - 0.5f);
     }
   });
   phi.swap(next_);

@@ -31,6 +31,7 @@ class LevelSetAdvection {
 
   GridSpec grid_;
   DenseField<float> start_, next_, rate_, centreU_, centreV_, centreW_;
+  DenseField<std::uint8_t> kinks_;
 };
 
 }  // namespace spume::fluid

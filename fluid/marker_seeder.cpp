@@ -43,12 +43,15 @@ struct MarkerSeeder::Side {
         purpose(kSeedPurpose + static_cast<std::uint64_t>(sign == MarkerSign::positive)) {}
 
   float depth(float x, float y, float z) const { return toCells * sampleCentred(view, x, y, z); }
-  /// Markers wanted in cell (i, j, k).
+  /// Markers cell (i, j, k) may keep: near the surface as many as a full cell, whatever part of it phi sees
+  /// on their side, because where phi has lost a film the markers are what restores it.
+  int allowed(int i, int j, int k) const {
+    return toCells * phi(i, j, k) > band ? 0 : scene.params.markersPerCell;
+  }
+  /// Markers cell (i, j, k) should have.
   int wanted(int i, int j, int k) const {
     if (scene.solids.psi(i, j, k) < -kWallDepth * scene.grid.dx) return 0;
-    const float centre = toCells * phi(i, j, k);
-    if (centre > band) return 0;
-    return static_cast<int>(std::lround(scene.params.markersPerCell * sideFraction(centre)));
+    return static_cast<int>(std::lround(allowed(i, j, k) * sideFraction(toCells * phi(i, j, k))));
   }
   bool attract(CounterRandom& random, float& x, float& y, float& z) const;
 };
@@ -77,7 +80,8 @@ void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
   forEachRow(cells, [&](int i, int j) {
     for (int k = 0; k < cells.z(); ++k) {
       const std::int32_t cell = (i * cells.y() + j) * cells.z() + k;
-      int room = side.wanted(i, j, k);
+      int room = side.allowed(i, j, k);
+      int present = 0;
       for (std::int32_t n = start[cell]; n < start[cell + 1]; ++n) {
         if (markers.escaped[n]) continue;
         const bool strayed = side.depth(markers.x[n], markers.y[n], markers.z[n]) > side.band;
@@ -85,9 +89,10 @@ void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
           markers.x[n] = std::numeric_limits<float>::quiet_NaN();
         } else {
           --room;
+          ++present;
         }
       }
-      missing_[cell] = room;
+      missing_[cell] = std::max(0, side.wanted(i, j, k) - present);
     }
   });
 }

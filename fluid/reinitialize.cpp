@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fluid/cubic_interpolation.h"
+#include "fluid/kinks.h"
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
 
@@ -25,8 +26,6 @@ constexpr float kConverged = 1e-4f;
 /// above kMiss, is none: there the crossing itself is taken.
 constexpr float kCrossingSlack = 1.1f;
 constexpr float kMiss = 0.02f;
-/// Second differences above this [1/cells] are a kink, not a curvature (radius 2 cells).
-constexpr float kKink = 0.5f;
 /// Radius of the patch around a closest point [cells]: twice half the diagonal of a cell, because outwards a
 /// cell may hear of its nearest point's neighbour only. Beside a kink half of it.
 constexpr float kPatch = 1.5f;
@@ -50,17 +49,21 @@ Crossing nearestCrossing(const float* p, const std::array<std::ptrdiff_t, 3>& st
   return nearest;
 }
 
-/// The interpolant near a cell, in displacements from it [cells].
+/// The interpolant near a cell, in displacements from it [cells]: cubic, or linear in cubes with a kink.
 struct Neighbourhood {
-  const float* p;
-  std::ptrdiff_t si, sj;
+  const DenseField<float>& phi;
+  const DenseField<std::uint8_t>& kinks;
+  Eigen::Vector3i cell;
+
   CubicValue at(const Eigen::Vector3f& d) const {
     const Eigen::Vector3f base = d.array().floor();
     const Eigen::Vector3f t = d - base;
-    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(base.x()) * si +
-                                  static_cast<std::ptrdiff_t>(base.y()) * sj +
-                                  static_cast<std::ptrdiff_t>(base.z());
-    return cubicValue(p + offset, si, sj, t.x(), t.y(), t.z());
+    const Eigen::Vector3i corner = cell + base.cast<int>();
+    const float* p = &phi(corner);
+    const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
+    if (!cubeIsKinked(kinks, corner.x(), corner.y(), corner.z()))
+      return cubicValue(p, si, sj, t.x(), t.y(), t.z());
+    return linearValue(p, si, sj, t.x(), t.y(), t.z());
   }
 };
 
@@ -114,7 +117,7 @@ float patchDistance(const Seed& s, float rx, float ry, float rz) {
 }  // namespace
 
 Reinitializer::Reinitializer(const GridSpec& grid)
-    : grid_(grid), layers_(grid.cells), seedOf_(grid.cells, -1) {}
+    : grid_(grid), layers_(grid.cells), kinks_(grid.cells), seedOf_(grid.cells, -1) {}
 
 Eigen::Vector3i Reinitializer::cellAt(std::ptrdiff_t offset) const {
   const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
@@ -141,12 +144,13 @@ void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBound
   });
 }
 
-Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, std::ptrdiff_t cell) const {
+Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, std::ptrdiff_t offset) const {
+  const Eigen::Vector3i cell = cellAt(offset);
   const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
-  const float* p = phi.data() + cell;
-  const Eigen::Vector3f centre = cellAt(cell).cast<float>();
+  const float* p = phi.data() + offset;
+  const Eigen::Vector3f centre = cell.cast<float>();
   const Crossing crossing = nearestCrossing(p, {si, sj, 1});
-  const ClosestPoint y = closestPoint({p, si, sj}, crossing.distance);
+  const ClosestPoint y = closestPoint({phi, kinks_, cell}, crossing.distance);
   Seed seed{};
   if (!y.found) {
     Eigen::Vector3f at = centre;
@@ -162,12 +166,11 @@ Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, std::p
   const auto mixed = [&](std::ptrdiff_t s, std::ptrdiff_t t) {
     return 0.25f * (p[s + t] - p[s - t] - p[t - s] + p[-s - t]) / y.slope;
   };
-  const float xx = second(si), yy = second(sj), zz = second(1);
-  if (std::max({std::abs(xx), std::abs(yy), std::abs(zz)}) > kKink) {
+  if (kinks_(cell)) {
     seed.reach = kKinkPatch;
     return seed;
   }
-  seed.xx = xx, seed.yy = yy, seed.zz = zz;
+  seed.xx = second(si), seed.yy = second(sj), seed.zz = second(1);
   seed.xy = mixed(si, sj), seed.yz = mixed(sj, 1), seed.zx = mixed(1, si);
   return seed;
 }
@@ -228,6 +231,7 @@ void Reinitializer::measure(DenseField<float>& phi) const {
 void Reinitializer::apply(DenseField<float>& phi, const SolidBoundary* solids) {
   markInterface(phi, solids);
   layers_.grow(kLayers);
+  markKinks(phi, kinks_);
   plantSeeds(phi);
   for (int layer = 1; layer <= kLayers; ++layer) spreadLayer(layer, true), spreadLayer(layer, false);
   for (int pass = 0; pass < kFinalPasses; ++pass)

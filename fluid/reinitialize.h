@@ -31,7 +31,7 @@ class Reinitializer {
     float xx, yy, zz, xy, yz, zx;  ///< second derivatives of the distance [1/cells]
     float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
   };
-  Seed findSeed(const DenseField<float>& phi, std::ptrdiff_t cell) const;
+  Seed findSeed(const DenseField<float>& phi, std::ptrdiff_t offset) const;
   void markInterface(const DenseField<float>& phi, const SolidBoundary* solids);
   void plantSeeds(const DenseField<float>& phi);
   void spreadLayer(int layer, bool outwardsOnly);
@@ -40,6 +40,7 @@ class Reinitializer {
 
   GridSpec grid_;
   LayerList layers_;
+  DenseField<std::uint8_t> kinks_;
   std::vector<Seed> seeds_;          ///< of the cells of layer 0, in their order
   DenseField<std::int32_t> seedOf_;  ///< nearest seed known to a cell, -1 for none
   std::vector<std::int32_t> update_;
