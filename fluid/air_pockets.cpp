@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fluid/level_set.h"
 #include "fluid/liquid_bodies.h"
 
 namespace spume::fluid {
@@ -47,7 +48,8 @@ void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const 
   forEachMember(grid, [&](std::int32_t n, const Eigen::Vector3i& c) {
     AirPocket& pocket = pockets_[n];
     ++pocket.cells;
-    pocket.gas += (1 - liquidFraction(phi, c.x(), c.y(), c.z())) * boundary.cellFraction(c);
+    pocket.gas += (1 - liquidFractionOfCell(phi, static_cast<float>(grid.dx), c.x(), c.y(), c.z())) *
+                  boundary.cellFraction(c);
     pocket.centroid += grid.cellCentre(c.x(), c.y(), c.z());
     if (reachesOutside(boundary, grid.cells, c)) outside_[n] = 1;
   });

@@ -8,6 +8,7 @@
 #include "fluid/counter_random.h"
 #include "fluid/cut_fractions.h"
 #include "fluid/errors.h"
+#include "fluid/level_set.h"
 #include "fluid/liquid_bodies.h"
 
 namespace spume::fluid {
@@ -56,11 +57,11 @@ void validate(const Inflow& inflow) {
   if (!(inflow.turbulence >= 0 && inflow.turbulence <= 0.5)) reject("turbulence must be 0 to 0.5");
 }
 
-double volumeAround(const std::vector<Eigen::Vector3i>& cells, const DenseField<float>& phi,
+double volumeAround(const std::vector<Eigen::Vector3i>& cells, const DenseField<float>& phi, float dx,
                     const SolidBoundary& boundary) {
   double sum = 0;
   for (const Eigen::Vector3i& c : cells)
-    sum += liquidFraction(phi, c.x(), c.y(), c.z()) * boundary.cellFraction(c);
+    sum += liquidFractionOfCell(phi, dx, c.x(), c.y(), c.z()) * boundary.cellFraction(c);
   return sum;
 }
 
@@ -197,9 +198,11 @@ const std::vector<PouredVolume>& InflowSet::stamp(double t, double dt, DenseFiel
     Nozzle& nozzle = nozzles_[n];
     if (!(scaleAt(inflows_[n], t) > 0)) continue;
     const bool opens = t - dt <= 0 || !(scaleAt(inflows_[n], t - dt) > 0);
-    const double before = opens ? volumeAround(nozzle.touched, phi, boundary) : 0;
+    const double before =
+        opens ? volumeAround(nozzle.touched, phi, static_cast<float>(grid_.dx), boundary) : 0;
     for (const Cell& cell : nozzle.cells) phi(cell.cell) = std::min(phi(cell.cell), cell.sdf);
-    const double filling = opens ? volumeAround(nozzle.touched, phi, boundary) - before : 0;
+    const double filling =
+        opens ? volumeAround(nozzle.touched, phi, static_cast<float>(grid_.dx), boundary) - before : 0;
     poured_.push_back({flux(n, t) * dt + filling * grid_.cellVolume(), nozzle.deepest});
     setSpeed(n, t, boundary);
     close(nozzle, boundary);

@@ -1,21 +1,9 @@
 #include "fluid/liquid_bodies.h"
 
-#include <algorithm>
-#include <functional>
-
-#include "fluid/cut_fractions.h"
-#include "fluid/parallel.h"
+#include "fluid/level_set.h"
 
 namespace spume::fluid {
 namespace {
-
-/// Difference of phi across cell c along an axis, one-sided at the edge of the grid [m].
-double slope(const DenseField<float>& phi, const Eigen::Vector3i& c, int axis) {
-  const Eigen::Vector3i step = Eigen::Vector3i::Unit(axis);
-  const bool hasLower = c[axis] > 0, hasUpper = c[axis] + 1 < phi.size()[axis];
-  const double upper = phi(hasUpper ? c + step : c), lower = phi(hasLower ? c - step : c);
-  return (upper - lower) / std::max(1, int(hasLower) + int(hasUpper));
-}
 
 /// Body of a cell whose centre is in air but which the surface cuts: that of its deepest liquid neighbour, or
 /// -1.
@@ -45,23 +33,6 @@ bool bordersAir(const DenseField<std::int32_t>& label, const SolidBoundary& boun
 
 }  // namespace
 
-double liquidFraction(const DenseField<float>& phi, int i, int j, int k) {
-  const Eigen::Vector3i c(i, j, k);
-  return planeFraction(phi(c), {slope(phi, c, 0), slope(phi, c, 1), slope(phi, c, 2)});
-}
-
-double liquidVolume(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary) {
-  const auto slab = [&](int i) {
-    double sum = 0;
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k)
-        if (boundary.cellFraction(i, j, k) > 0)
-          sum += liquidFraction(phi, i, j, k) * boundary.cellFraction(i, j, k);
-    return sum;
-  };
-  return grid.cellVolume() * reduceSlabs(grid.cells.x(), 0.0, slab, std::plus<>());
-}
-
 void LiquidBodies::find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary) {
   const int count = connected_.label(
       grid.cells, [&](int i, int j, int k) { return phi(i, j, k) < 0 && boundary.cellFraction(i, j, k) > 0; },
@@ -76,11 +47,8 @@ void LiquidBodies::find(const GridSpec& grid, const DenseField<float>& phi, cons
 /// Sums in the order of the cells; only the fractions are worth computing in parallel.
 void LiquidBodies::measure(const GridSpec& grid, const DenseField<float>& phi,
                            const SolidBoundary& boundary) {
-  if (fraction_.size() != grid.cells) fraction_ = DenseField<double>(grid.cells);
-  forEachCell(grid.cells, [&](int i, int j, int k) {
-    const float space = boundary.cellFraction(i, j, k);
-    fraction_(i, j, k) = space > 0 ? space * liquidFraction(phi, i, j, k) : 0;
-  });
+  if (fraction_.size() != grid.cells) fraction_ = DenseField<float>(grid.cells);
+  computeLiquidFraction(phi, boundary, static_cast<float>(grid.dx), fraction_);
   volume = 0;
   for (int i = 0; i < grid.cells.x(); ++i)
     for (int j = 0; j < grid.cells.y(); ++j)

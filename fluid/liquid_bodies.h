@@ -32,14 +32,8 @@ struct LiquidBodies {
 
  private:
   ConnectedCells connected_;
-  DenseField<double> fraction_;  // liquid share of each cell
+  DenseField<float> fraction_;  // liquid share of each cell
   void measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 };
-
-/// Volume fraction of cell (i, j, k) with phi < 0, exact for a plane: phi is taken linear in the cell [-].
-double liquidFraction(const DenseField<float>& phi, int i, int j, int k);
-
-/// Liquid volume of the whole grid: sum of liquidFraction x cellFraction x dx^3 [m^3].
-double liquidVolume(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 
 }  // namespace spume::fluid

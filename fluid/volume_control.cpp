@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fluid/errors.h"
+#include "fluid/level_set.h"
 #include "fluid/liquid_solver.h"
 #include "fluid/parallel.h"
 
@@ -79,8 +80,9 @@ double VolumeControl::bookOutflow(const DenseField<float>& phi, const SolidBound
     const std::int32_t body = lastLabel_(c);
     const double speed = side * boundary.open[axis](face) * velocity[axis](face);
     if (body < 0 || !(speed > 0)) return;
-    const double out =
-        std::min(ledger_.target[body], share * speed * liquidFraction(phi, c.x(), c.y(), c.z()));
+    const double out = std::min(
+        ledger_.target[body],
+        share * speed * liquidFractionOfCell(phi, static_cast<float>(grid_.dx), c.x(), c.y(), c.z()));
     ledger_.target[body] -= out;
     drained += out;
   };
