@@ -51,6 +51,7 @@ int parseAndPerform(int argc, char** argv) {
   addCheck(program, action);
   addInfo(program, action);
   addRender(program, action);
+  addMeasure(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

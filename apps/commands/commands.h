@@ -13,5 +13,6 @@ void addRun(CLI::App& program, Action& action);
 void addCheck(CLI::App& program, Action& action);
 void addInfo(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);
+void addMeasure(CLI::App& program, Action& action);
 
 }  // namespace spume::apps

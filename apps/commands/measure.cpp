@@ -1,0 +1,96 @@
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "apps/commands/commands.h"
+#include "apps/exit_code.h"
+#include "apps/report.h"
+#include "coupling/bubble_table.h"
+#include "coupling/cell_table.h"
+#include "foam/power_cells.h"
+
+namespace spume::apps {
+namespace {
+
+struct MeasureOptions {
+  std::string bubbles, cells, contacts;
+  bool json = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
+  std::error_code unknown;
+  const auto whole = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(path, unknown);
+  };
+  return !a.empty() && !b.empty() && whole(a) == whole(b);
+}
+
+/// No file may replace another of the same call.
+void checkPaths(const MeasureOptions& options) {
+  if (sameFile(options.cells, options.contacts))
+    throw coupling::SceneError("--output and --contacts are the same file, " + options.cells);
+  for (const std::string& written : {options.cells, options.contacts})
+    if (sameFile(written, options.bubbles))
+      throw coupling::SceneError(written + " would replace the bubbles it is measured from");
+}
+
+Report reportOf(const coupling::FoamTotals& totals, double geometrySeconds, double seconds) {
+  Report report;
+  report.add("bubbles", static_cast<double>(totals.bubbles));
+  report.add("hidden", static_cast<double>(totals.hidden));
+  report.add("contacts", static_cast<double>(totals.contacts));
+  report.add("volume", totals.volume, "m^3");
+  report.add("free_area", totals.freeArea, "m^2");
+  report.add("film_area", totals.filmArea, "m^2");
+  report.add("geometry_seconds", geometrySeconds, "s");
+  report.add("seconds", seconds, "s");
+  return report;
+}
+
+int measure(const MeasureOptions& options) {
+  const Clock::time_point start = Clock::now();
+  checkPaths(options);
+  const coupling::BubbleTable bubbles = coupling::readBubbleTable(options.bubbles);
+  const Clock::time_point read = Clock::now();
+  foam::FoamTopology topology;
+  foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  const double geometrySeconds = secondsSince(read);
+  if (!options.cells.empty()) coupling::writeCellTable(options.cells, bubbles, topology);
+  if (!options.contacts.empty()) coupling::writeContactTable(options.contacts, bubbles, topology);
+  const Report report = reportOf(coupling::totalsOf(topology), geometrySeconds, secondsSince(start));
+  std::cout << (options.json ? report.json() : report.text());
+  return kDone;
+}
+
+}  // namespace
+
+void addMeasure(CLI::App& program, Action& action) {
+  CLI::App* verb = program.add_subcommand(
+      "measure", "Volume, areas, films and contacts of any set of balls, cut by their power diagram.");
+  const auto options = std::make_shared<MeasureOptions>();
+  verb->add_option("bubbles", options->bubbles,
+                   "balls in metres: .csv with a header id,x,y,z,r, or .ply, or .vdb points")
+      ->required()
+      ->type_name("BUBBLES");
+  verb->add_option("-o,--output", options->cells,
+                   "a row per bubble: id,volume,free_area,film_area,films,hidden")
+      ->type_name("CSV");
+  verb->add_option("--contacts", options->contacts, "a row per film: id_a,id_b,distance,film_area")
+      ->type_name("CSV");
+  verb->add_flag("--json", options->json, "totals as one JSON object");
+  verb->footer(
+      "The totals are those of the union of the balls; film_area counts each film once.\n"
+      "Examples:\n"
+      "  spume measure balls.csv -o cells.csv --contacts contacts.csv\n"
+      "  spume measure out/pouring/bubbles/bubbles.0150.ply");
+  verb->callback([options, &action] { action = [options] { return measure(*options); }; });
+}
+
+}  // namespace spume::apps

@@ -1,0 +1,90 @@
+#include "coupling/bubble_table.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numeric>
+
+#include "coupling/atomic_file.h"
+
+namespace spume::coupling {
+namespace {
+
+using PlaceOf = std::function<std::string(std::size_t row, std::string_view column)>;
+
+constexpr const char* kAxis[] = {"x", "y", "z"};
+constexpr const char* kVelocity[] = {"vx", "vy", "vz"};
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void checkRadius(const BubbleTable& bubbles, std::size_t row, const PlaceOf& placeOf) {
+  const double r = bubbles.radius[row];
+  if (std::isfinite(r) && r > 0) return;
+  throw SceneError(placeOf(row, "r") + ": radius r = " + shown(r) + " of bubble " +
+                   std::to_string(bubbles.id[row]) + "; it must be finite and > 0 [m]");
+}
+
+void checkVector(const Eigen::Vector3d& value, const char* const (&column)[3], const char* unit,
+                 std::size_t row, const PlaceOf& placeOf) {
+  if (value.allFinite()) return;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(value[axis]))
+      throw SceneError(placeOf(row, column[axis]) + ": " + column[axis] + " = " + shown(value[axis]) +
+                       "; it must be finite [" + unit + "]");
+}
+
+/// Names the earliest row that repeats an id, and the row it repeats.
+void checkIds(const BubbleTable& bubbles, const PlaceOf& placeOf) {
+  const std::vector<std::uint64_t>& id = bubbles.id;
+  if (std::adjacent_find(id.begin(), id.end(), std::greater_equal<>()) == id.end()) return;  // increasing
+  std::vector<std::size_t> order(id.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return id[a] != id[b] ? id[a] < id[b] : a < b; });
+  std::size_t first = 0, again = id.size();
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (id[order[k]] == id[order[k - 1]] && order[k] < again) first = order[k - 1], again = order[k];
+  if (again == id.size()) return;
+  throw SceneError(placeOf(again, "id") + ": id " + std::to_string(id[again]) + " is already that of " +
+                   placeOf(first, "id") + "; every bubble needs its own");
+}
+
+std::string endingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+}  // namespace
+
+void BubbleTable::resize(std::size_t count) {
+  id.resize(count);
+  position.resize(count, Eigen::Vector3d::Zero());
+  radius.resize(count);
+  velocity.resize(count, Eigen::Vector3d::Zero());
+}
+
+void checkBubbles(const BubbleTable& bubbles, const PlaceOf& placeOf) {
+  for (std::size_t row = 0; row < bubbles.size(); ++row) {
+    checkVector(bubbles.position[row], kAxis, "m", row, placeOf);
+    checkRadius(bubbles, row, placeOf);
+    checkVector(bubbles.velocity[row], kVelocity, "m/s", row, placeOf);
+  }
+  checkIds(bubbles, placeOf);
+}
+
+BubbleTable readBubbleTable(const std::string& path) {
+  const std::string ending = endingOf(path);
+  if (ending == ".csv") return parseBubbleCsv(path, readFile(path));
+  if (ending == ".ply") return parseBubblePly(path, readFile(path));
+  throw SceneError(path + ": expected a .csv, .ply or .vdb file of bubbles");
+}
+
+}  // namespace spume::coupling
