@@ -93,7 +93,7 @@ void CsvReader::requireColumns(std::string_view header) const {
     if (given(c)) continue;
     const std::string nearest = nearestUnused(kColumn[c]);
     lines_.fail(header, "column " + std::string(kColumn[c]) + " is missing" +
-                            (nearest.empty() ? "" : "; the nearest one is '" + nearest + "'") +
+                            (nearest.empty() ? "" : "; the nearest one is " + quoted(nearest)) +
                             "; the header is " + joined(names_) + ", expected id,x,y,z,r" +
                             (velocity ? ",vx,vy,vz" : ""));
   }

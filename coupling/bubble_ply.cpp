@@ -67,7 +67,7 @@ void PlyReader::requireColumn(Column column) const {
   const std::string nearest = nearestOf(wanted, unused);
   throw SceneError(path_ + ": the vertices have no property " + wanted +
                    (column == kR ? " (or pscale, or r)" : "") +
-                   (nearest.empty() ? "" : "; the nearest one is '" + nearest + "'"));
+                   (nearest.empty() ? "" : "; the nearest one is " + quoted(nearest)));
 }
 
 void PlyReader::readAscii() {

@@ -56,8 +56,7 @@ class HeaderReader {
     if (words[0] == "format" && words.size() == 3) return readFormat(words[1]);
     if (words[0] == "element" && words.size() == 3) return readElement(words[1], words[2]);
     if (words[0] == "property" && elements_ == 1) return readProperty(line, words);
-    if (words[0] != "property")
-      lines_.fail(words[0], "'" + std::string(line) + "' is no line of a PLY header");
+    if (words[0] != "property") lines_.fail(words[0], quoted(line) + " is no line of a PLY header");
   }
 
   void readFormat(std::string_view format) {
@@ -74,7 +73,7 @@ class HeaderReader {
       lines_.fail(name, "the first element is " + std::string(name) + ", expected vertex");
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), header_.vertices);
     if (error != std::errc() || stop != count.data() + count.size())
-      lines_.fail(count, "'" + std::string(count) + "' is no number of vertices");
+      lines_.fail(count, quoted(count) + " is no number of vertices");
   }
 
   void readProperty(std::string_view line, const Words& words) {
@@ -82,8 +81,7 @@ class HeaderReader {
       return words.size() == 3 && (words[1] == type.name || words[1] == type.alias);
     });
     if (known == std::end(kTypes))
-      lines_.fail(words[0],
-                  "'" + std::string(line) + "' is no scalar property; expected e.g. property float x");
+      lines_.fail(words[0], quoted(line) + " is no scalar property; expected e.g. property float x");
     header_.properties.push_back({std::string(words[2]), known->type, header_.stride});
     header_.stride += known->bytes;
   }

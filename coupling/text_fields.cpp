@@ -64,6 +64,12 @@ void TextLines::fail(std::string_view piece, const std::string& problem) const {
   throw SceneError(placeOf(piece) + ": " + problem);
 }
 
+std::string quoted(std::string_view text) {
+  std::string out(1, '\'');
+  out.append(text).push_back('\'');
+  return out;
+}
+
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
@@ -92,7 +98,7 @@ double numberIn(const TextLines& lines, std::string_view field, std::string_view
   double value = 0;
   const std::errc error = parseWhole(withoutPlus(field), value);
   if (error == std::errc()) return value;
-  const std::string what = std::string(column) + " = '" + std::string(field) + "'";
+  const std::string what = std::string(column) + " = " + quoted(field);
   if (error == std::errc::result_out_of_range)
     lines.fail(field, what + " does not fit into a number of double precision (1e-307 to 1e308)");
   lines.fail(field, what + " is not a number; expected e.g. 0.0015 or 1.5e-3");
@@ -103,7 +109,7 @@ std::uint64_t idIn(const TextLines& lines, std::string_view field) {
   if (parseWhole(withoutPlus(field), id) == std::errc()) return id;
   double value = 0;
   if (parseWhole(withoutPlus(field), value) == std::errc() && isExactId(value, id)) return id;
-  lines.fail(field, "id = '" + std::string(field) + "' is not an integer from 0 to 2^64 - 1");
+  lines.fail(field, "id = " + quoted(field) + " is not an integer from 0 to 2^64 - 1");
 }
 
 bool isExactId(double value, std::uint64_t& id) {

@@ -35,6 +35,9 @@ class TextLines {
   std::size_t offset_ = 0;
 };
 
+/// 'text' in quotes, for messages.
+std::string quoted(std::string_view text);
+
 /// Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 

@@ -9,12 +9,14 @@
 #include "coupling/bubble_table.h"
 #include "coupling/cell_table.h"
 #include "foam/power_cells.h"
+#include "foam/power_diagram.h"
 
 namespace spume::apps {
 namespace {
 
 struct MeasureOptions {
   std::string bubbles, cells, contacts;
+  std::string engine = "local";
   bool json = false;
 };
 
@@ -54,13 +56,21 @@ Report reportOf(const coupling::FoamTotals& totals, double geometrySeconds, doub
   return report;
 }
 
+foam::FoamTopology topologyOf(const coupling::BubbleTable& bubbles, const std::string& engine) {
+  foam::FoamTopology topology;
+  if (engine == "global")
+    foam::PowerDiagram().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  else
+    foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  return topology;
+}
+
 int measure(const MeasureOptions& options) {
   const Clock::time_point start = Clock::now();
   checkPaths(options);
   const coupling::BubbleTable bubbles = coupling::readBubbleTable(options.bubbles);
   const Clock::time_point read = Clock::now();
-  foam::FoamTopology topology;
-  foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  const foam::FoamTopology topology = topologyOf(bubbles, options.engine);
   const double geometrySeconds = secondsSince(read);
   if (!options.cells.empty()) coupling::writeCellTable(options.cells, bubbles, topology);
   if (!options.contacts.empty()) coupling::writeContactTable(options.contacts, bubbles, topology);
@@ -84,6 +94,10 @@ void addMeasure(CLI::App& program, Action& action) {
       ->type_name("CSV");
   verb->add_option("--contacts", options->contacts, "a row per film: id_a,id_b,distance,film_area")
       ->type_name("CSV");
+  verb->add_option("--engine", options->engine,
+                   "local: from overlapping neighbours; global: the triangulation of all balls, a slow check")
+      ->check(CLI::IsMember({"local", "global"}))
+      ->capture_default_str();
   verb->add_flag("--json", options->json, "totals as one JSON object");
   verb->footer(
       "The totals are those of the union of the balls; film_area counts each film once.\n"

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/apps_program.h"
+
+namespace spume::apps::test {
+namespace {
+
+const std::string kSound = "id,x,y,z,r\n0,0,0,0,1\n1,1,0,0,1\n";
+
+/// The program refused with `code` and one line that holds `part`.
+void expectRefused(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " is not in: " << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+}
+
+TEST(MeasureFaults, BadRowNamesItsPlaceAndWritesNothing) {
+  const Scratch scratch;
+  const std::string input = scratch.write("bad.csv", "id,x,y,z,r\n0,0,0,0,1\n1,0,0,3,-2\n");
+  expectRefused(runSpume("measure " + input + " -o " + (scratch / "cells.csv")), 2, "bad.csv:3:9: ");
+  EXPECT_EQ(scratch.count(), 1u);
+}
+
+TEST(MeasureFaults, MissingFileIsAnInputError) {
+  expectRefused(runSpume("measure /nonexistent/a.csv"), 4, "/nonexistent/a.csv");
+  expectRefused(runSpume("measure /nonexistent/a.ply"), 4, "/nonexistent/a.ply");
+  expectRefused(runSpume("measure ."), 2, "expected a .csv, .ply or .vdb");
+}
+
+TEST(MeasureFaults, UnwritableOutputIsAnOutputError) {
+  const Scratch scratch;
+  const std::string input = scratch.write("a.csv", kSound);
+  expectRefused(runSpume("measure " + input + " -o /nonexistent/cells.csv"), 4, "/nonexistent/cells.csv");
+  expectRefused(runSpume("measure " + input + " --contacts /nonexistent/c.csv"), 4, "/nonexistent/c.csv");
+}
+
+TEST(MeasureFaults, NoFileReplacesAnother) {
+  const Scratch scratch;
+  const std::string input = scratch.write("a.csv", kSound);
+  expectRefused(runSpume("measure " + input + " -o " + input), 2, "would replace");
+  const std::string both = scratch / "b.csv";
+  expectRefused(runSpume("measure " + input + " -o " + both + " --contacts " + both), 2, "the same file");
+  EXPECT_EQ(contentsOf(input), kSound);
+}
+
+TEST(MeasureFaults, WrongUseIsRefused) {
+  expectRefused(runSpume("measure"), 2, "bubbles");
+  expectRefused(runSpume("measure a.csv --engine fast"), 2, "local");
+}
+
+}  // namespace
+}  // namespace spume::apps::test
