@@ -69,6 +69,8 @@ bool DiscClipper::findLines(const CuttingPlanes& planes, std::size_t face, doubl
   lines_.resize(planes.count);
   const double nx = planes.nx[face], ny = planes.ny[face], nz = planes.nz[face], height = planes.height[face];
   const PlaneFrame frame(nx, ny, nz);
+  frame_ = {
+      height * Eigen::Vector3d(nx, ny, nz), {frame.ux, frame.uy, frame.uz}, {frame.vx, frame.vy, frame.vz}};
   const double *kx = planes.nx.data(), *ky = planes.ny.data(), *kz = planes.nz.data();
   const double *kh = planes.height.data(), *kShift = planes.heightShift.data();
   double* __restrict px = px_.data(), * __restrict py = py_.data();
@@ -172,6 +174,29 @@ void DiscClipper::integrate(double height, double heightShift, double discRadius
   out.areaShift = edgeShift + out.arc * (balls.radius * balls.radiusShift - height * heightShift);
   out.solidNear = solidNear + (1 - near / balls.radius) * out.arc;
   out.solidFar = solidFar + (1 - far / balls.farRadius) * out.arc;
+}
+
+Eigen::Vector3d DiscClipper::pointInside() const {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int edges = 0;
+  for (std::size_t k = 0; k < lines_.count; ++k) {
+    if (!(lines_.t2[k] > lines_.t1[k])) continue;
+    const Eigen::Vector2d normal(lines_.ux[k], lines_.uy[k]), along(-lines_.uy[k], lines_.ux[k]);
+    sum += lines_.offset[k] * normal + (lines_.t1[k] + lines_.t2[k]) / 2 * along;
+    ++edges;
+  }
+  const Eigen::Vector2d mean = sum / std::max(edges, 1);
+  return frame_.origin + mean.x() * frame_.u + mean.y() * frame_.v;
+}
+
+double DiscClipper::farthestCorner2() const {
+  double farthest2 = 0;
+  for (std::size_t k = 0; k < lines_.count; ++k) {
+    if (!(lines_.t2[k] > lines_.t1[k])) continue;
+    const double end = std::max(std::abs(lines_.t1[k]), std::abs(lines_.t2[k]));
+    farthest2 = std::max(farthest2, lines_.offset[k] * lines_.offset[k] + end * end);
+  }
+  return frame_.origin.squaredNorm() + farthest2;
 }
 
 }  // namespace spume::foam

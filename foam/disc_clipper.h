@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -33,6 +34,12 @@ class DiscClipper {
   /// What the other planes leave of plane `face`'s disc. O(m^2) in the number m of planes that cut it.
   FilmShape clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls);
 
+  /// A point of the last disc clipped that was not empty, relative to the owner's centre [m]: the mean of its
+  /// edges.
+  Eigen::Vector3d pointInside() const;
+  /// Squared distance from the owner's centre to the farthest corner of that disc [m^2].
+  double farthestCorner2() const;
+
  private:
   /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film.
   struct Lines {
@@ -45,12 +52,18 @@ class DiscClipper {
     void resize(std::size_t lines);
   };
 
+  /// The disc's plane: its centre, from the owner's centre [m], and two axes.
+  struct Frame {
+    Eigen::Vector3d origin, u, v;
+  };
+
   bool findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2);
   bool clipLines(double discRadius2);
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                  FilmShape& out) const;
 
   std::vector<double> px_, py_, toPlane_, alongNormal_;  ///< of the planes, in the disc's frame
+  Frame frame_;
   Lines lines_;
 };
 

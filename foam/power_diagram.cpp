@@ -35,15 +35,15 @@ using Real = FilmPolygon::Real;
 using Point = FilmPolygon::Point;
 
 constexpr std::int32_t kGuard = -1;  ///< index of the guard sites
-/// Distance of the guard sites in sizes of the foam: their planes stay clear of every ball, the numbers stay
-/// small.
+/// Distance of the guard sites in sizes of the inflated foam: their planes stay clear of every ball, the
+/// numbers stay small.
 constexpr double kGuardDistance = 16;
 
 /// Sequential on purpose: parallel insertion of weighted points has a race in CGAL 5.5. Four far guard sites
 /// keep the triangulation three-dimensional, where alpha shapes of fewer than 4 or of coplanar sites are
 /// silently wrong.
 Triangulation triangulate(const std::vector<Eigen::Vector3d>& position,
-                          const std::vector<TieBrokenBall>& ball) {
+                          const std::vector<TieBrokenBall>& ball, double alpha) {
   std::vector<std::pair<Triangulation::Weighted_point, std::int32_t>> sites;
   Eigen::Vector3d low = position.front(), high = position.front();
   double largest = 0;
@@ -52,7 +52,7 @@ Triangulation triangulate(const std::vector<Eigen::Vector3d>& position,
     sites.emplace_back(Triangulation::Weighted_point({x.x(), x.y(), x.z()}, ball[i].radius * ball[i].radius),
                        i);
     low = low.cwiseMin(x), high = high.cwiseMax(x);
-    largest = std::max(largest, ball[i].radius);
+    largest = std::max(largest, std::sqrt(ball[i].radius * ball[i].radius + alpha));
   }
   const Eigen::Vector3d centre = (low + high) / 2;
   const double far = kGuardDistance * ((high - low).norm() + 2 * largest);
@@ -195,7 +195,7 @@ void PowerDiagram::compute(const std::vector<Eigen::Vector3d>& position, const s
   out = {};
   if (position.empty()) return;
   const std::vector<TieBrokenBall> ball = tieBroken(radius, id);
-  Triangulation diagram = triangulate(position, ball);
+  Triangulation diagram = triangulate(position, ball, 0);
   const AlphaShape shape(diagram, 0);  // takes the triangulation over
   DiagramMeasure measure(shape, ball);
   for (auto edge = shape.finite_edges_begin(); edge != shape.finite_edges_end(); ++edge)
@@ -204,17 +204,20 @@ void PowerDiagram::compute(const std::vector<Eigen::Vector3d>& position, const s
   listOverlaps(position, radius, ball, out);
 }
 
-std::vector<std::pair<std::int32_t, std::int32_t>> powerDiagramEdges(
+std::vector<std::pair<std::int32_t, std::int32_t>> alphaComplexEdges(
     const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
-    const std::vector<std::uint64_t>& id) {
-  checkBalls("powerDiagramEdges", position, radius, id);
+    const std::vector<std::uint64_t>& id, double alpha) {
+  checkBalls("alphaComplexEdges", position, radius, id);
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   if (position.empty()) return pairs;
-  const Triangulation diagram = triangulate(position, tieBroken(radius, id));
-  for (auto edge = diagram.finite_edges_begin(); edge != diagram.finite_edges_end(); ++edge) {
+  const bool all = std::isinf(alpha);
+  Triangulation diagram = triangulate(position, tieBroken(radius, id), all ? 0 : alpha);
+  const AlphaShape shape(diagram, all ? 0 : alpha);  // takes the triangulation over
+  for (auto edge = shape.finite_edges_begin(); edge != shape.finite_edges_end(); ++edge) {
     const std::int32_t i = edge->first->vertex(edge->second)->info(),
                        j = edge->first->vertex(edge->third)->info();
-    if (i != kGuard && j != kGuard) pairs.push_back(std::minmax(i, j));
+    if (i == kGuard || j == kGuard || (!all && shape.classify(*edge) == AlphaShape::EXTERIOR)) continue;
+    pairs.push_back(std::minmax(i, j));
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;

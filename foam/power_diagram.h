@@ -19,10 +19,11 @@ class PowerDiagram {
                const std::vector<std::uint64_t>& id, FoamTopology& out);
 };
 
-/// All pairs i < j of balls whose unrestricted power cells share a face, sorted: the edges of the regular
-/// triangulation. Balls without a cell in the whole diagram have none. Same jitter and same errors as above.
-std::vector<std::pair<std::int32_t, std::int32_t>> powerDiagramEdges(
+/// All pairs i < j, sorted, whose face in the power diagram comes within power distance `alpha` [m^2] of
+/// both: the edges of the alpha complex. With an infinite alpha all edges of the regular triangulation. Same
+/// jitter and same errors as above.
+std::vector<std::pair<std::int32_t, std::int32_t>> alphaComplexEdges(
     const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
-    const std::vector<std::uint64_t>& id);
+    const std::vector<std::uint64_t>& id, double alpha);
 
 }  // namespace spume::foam

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "foam/errors.h"
 #include "foam/power_diagram.h"
 #include "tests/support/foam_balls.h"
@@ -114,7 +116,16 @@ TEST(PowerDiagram, EqualPairHasTheClosedForm) {
 TEST(PowerDiagram, EdgesOfASimplexAreAllPairs) {
   Balls balls;
   for (int i = 0; i < 4; ++i) balls.add(Vector3d(i == 1, i == 2, i == 3), .1);
-  EXPECT_EQ(powerDiagramEdges(balls.position, balls.radius, balls.id).size(), 6u);
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(alphaComplexEdges(balls.position, balls.radius, balls.id, kAll).size(), 6u);
+}
+
+/// Two balls of radius r, d apart, meet in the alpha complex once r^2 + alpha = (d/2)^2.
+TEST(PowerDiagram, APairEntersTheAlphaComplexHalfway) {
+  Balls balls;
+  balls.add({0, 0, 0}, 1), balls.add({4, 0, 0}, 1);
+  EXPECT_TRUE(alphaComplexEdges(balls.position, balls.radius, balls.id, 2.999).empty());
+  EXPECT_EQ(alphaComplexEdges(balls.position, balls.radius, balls.id, 3.001).size(), 1u);
 }
 
 TEST(PowerDiagram, RejectsWhatIsNoBall) {
