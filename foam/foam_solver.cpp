@@ -10,6 +10,7 @@
 #include "foam/errors.h"
 #include "foam/integrator.h"
 #include "foam/lifetime.h"
+#include "foam/near_walls.h"
 #include "foam/neighbours.h"
 #include "foam/parallel.h"
 #include "foam/power_cells.h"
@@ -66,6 +67,7 @@ struct FoamSolver::Internals {
   std::vector<std::uint64_t> topologyId;  ///< ids of the topology's rows
   Neighbours neighbours;
   Surroundings around;
+  std::vector<NearWalls> walls;
   Eigen::VectorXd phiEnd, psiEnd;
   BubbleStore next;  ///< the bubbles while they change: the caller's stay whole until the end
 
@@ -159,8 +161,9 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("classes");
   s.integrator.describe(s.around, s.next);
   s.integrator.predict(dt);
+  findNearWalls(liquid, s.around, s.next, s.integrator.reach(dt), s.walls);
   clock.end("predict");
-  const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, dt);
+  const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, s.walls, dt);
   clock.end("solve");
   s.integrator.advance(dt, s.next);
   requireFinite(s.next);

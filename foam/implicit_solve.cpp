@@ -21,14 +21,18 @@ void ImplicitSolve::prepare(const BlockSystem& a) {
   forEachIndex(n, [&](std::size_t i) { inverse_[i] = a.diagonal(i).inverse(); });
 }
 
-SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double tolerance, double floor,
-                                 int maxIterations, Vectors3& x) {
+double ImplicitSolve::residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x) {
+  residual_.resize(a.size());
+  forEachIndex(a.size(), [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
+  return std::sqrt(dot(residual_, residual_));
+}
+
+SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
+                                 Vectors3& x) {
   const std::size_t n = a.size();
+  const double first = residual(a, b, x);
+  double norm = first;
   SolveReport report;
-  residual_.resize(n);
-  forEachIndex(n, [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
-  const double size = std::sqrt(dot(b, b)), goal = std::max(tolerance * size, floor);
-  double norm = std::sqrt(dot(residual_, residual_));
   report.converged = norm <= goal;
   if (report.converged) return report;
   prepare(a);
@@ -51,9 +55,9 @@ SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double
     norm = std::sqrt(dot(residual_, residual_));
     ++report.iterations;
   }
-  report.residual = norm / size;
+  report.residual = norm / first;
   report.converged = norm <= goal;
-  forEachIndex(n, [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
+  residual(a, b, x);
   shiftRigidly(a, x);
   return report;
 }

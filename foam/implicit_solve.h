@@ -4,7 +4,7 @@
 
 namespace spume::foam {
 
-/// What a solve did. `residual` is relative to the right-hand side.
+/// What a solve did. `residual` is relative to that of the first guess.
 struct SolveReport {
   int iterations = 0;
   double residual = 0;
@@ -15,11 +15,13 @@ struct SolveReport {
 /// calls. The result does not depend on the number of threads.
 class ImplicitSolve {
  public:
-  /// Solves A x = b from the given x until |b - A x| <= tolerance |b|, or `floor` [kg m/s], the round-off of b.
-  /// Ends with a correction by a rigid motion of everything, so that total momentum changes by the outer
-  /// forces alone to round-off. A result that did not converge is still the best one found.
-  SolveReport solve(const BlockSystem& a, const Vectors3& b, double tolerance, double floor,
-                    int maxIterations, Vectors3& x);
+  /// |b - A x| [kg m/s].
+  double residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
+
+  /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. Ends with a correction by a rigid
+  /// motion of everything, so that total momentum changes by the outer forces alone to round-off. A result
+  /// that did not converge is still the best one found.
+  SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
 
  private:
   void prepare(const BlockSystem& a);

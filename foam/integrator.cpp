@@ -25,6 +25,9 @@ constexpr int kWallPasses = 6;
 /// gap, and the force left over is as far below the spring's.
 constexpr double kWallResolution = 1e-6;
 
+/// Speed that counts as rest [m/s]: a micrometre in three hours.
+constexpr double kRestSpeed = 1e-10;
+
 /// Unit grad phi and its slope; where phi has a plateau, against gravity with slope 0.
 void setSurface(const FoamParams& params, const Eigen::Vector3d& gradPhi, LoneBubble& lone) {
   const double slope = gradPhi.norm();
@@ -35,14 +38,6 @@ void setSurface(const FoamParams& params, const Eigen::Vector3d& gradPhi, LoneBu
   else
     lone.up =
         params.gravity.norm() > 0 ? Eigen::Vector3d(-params.gravity.normalized()) : Eigen::Vector3d::UnitY();
-}
-
-void setWall(const FoamParams& params, const Surroundings& around, std::size_t i, LoneBubble& lone) {
-  lone.psi = around.psi[i];
-  lone.awayFromWall = around.gradPsi.col(i);
-  lone.wallSpeed = around.gradPsi.col(i).dot(around.solidVelocity.col(i));
-  lone.wallGap = lone.radius;
-  lone.wallStiffness = params.wallStiffnessFactor * springStiffness(params, lone.radius, lone.radius);
 }
 
 LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, const Surroundings& around,
@@ -64,7 +59,8 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
     lone.viscousDrag = viscousDragFactor(params, lone.radius, lone.immersed);
   lone.liquidVelocity = around.liquidVelocity.col(i);
   setSurface(params, around.gradPhi.col(i), lone);
-  setWall(params, around, i, lone);
+  lone.wallGap = lone.radius;
+  lone.wallStiffness = params.wallStiffnessFactor * springStiffness(params, lone.radius, lone.radius);
   return lone;
 }
 
@@ -94,48 +90,70 @@ void Integrator::predict(double dt) {
                [&](std::size_t i) { motion_[i] = linearise(lone_[i], predictVelocity(lone_[i], dt), dt); });
 }
 
+std::vector<double> Integrator::reach(double dt) const {
+  constexpr double kNeighbourPush = 1;  // [radii] a neighbour moves a bubble by less within a step
+  std::vector<double> reach(lone_.size());
+  forEachIndex(reach.size(), [&](std::size_t i) {
+    const double speed = std::max(lone_[i].velocity.norm(), motion_[i].velocity.norm());
+    reach[i] = (1 + kNeighbourPush) * lone_[i].radius + dt * speed;
+  });
+  return reach;
+}
+
 SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& topology,
-                               const Neighbours& neighbours, double dt) {
+                               const Neighbours& neighbours, const std::vector<NearWalls>& walls, double dt) {
   const std::size_t n = lone_.size();
+  walls_ = walls;
   computePairForces(params_, bubbles, topology, mass_, pairForce_);
   system_.own.resize(n), impulse_.resize(n), impulseScale_.resize(n), velocity_.resize(n);
+  change_.assign(n, Eigen::Vector3d::Zero());
   system_.start = neighbours.start, system_.other = neighbours.other;
   system_.block.resize(neighbours.other.size());
   forEachIndex(n, [&](std::size_t i) { assembleRow(i, topology, neighbours, dt); });
-  change_.assign(n, Eigen::Vector3d::Zero());
   closed_.assign(n, 0);
-  SolveReport report;
-  const double floor = roundOff();
-  for (int pass = 0; pass < kWallPasses && (updateContacts(dt) || pass == 0); ++pass) {
-    const SolveReport done =
-        solver_.solve(system_, impulse_, params_.solverTolerance, floor, params_.solverIterations, change_);
-    if (!done.converged) failToConverge(done, n, dt);
-    report = {report.iterations + done.iterations, done.residual, true};
-  }
+  updateContacts(dt);
+  // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
+  forEachIndex(n, [&](std::size_t i) { change_[i] = lone_[i].velocity - motion_[i].velocity; });
+  const SolveReport report = solveWithContacts(dt);
+  if (!report.converged) failToConverge(report, n, dt);
   forEachIndex(n, [&](std::size_t i) { velocity_[i] = motion_[i].velocity + change_[i]; });
+  return report;
+}
+
+SolveReport Integrator::solveWithContacts(double dt) {
+  const double first = solver_.residual(system_, impulse_, change_);
+  const double goal = std::max(params_.solverTolerance * first, smallestGoal());
+  SolveReport report;
+  for (int pass = 0; pass < kWallPasses; ++pass) {
+    const SolveReport done = solver_.solve(system_, impulse_, goal, params_.solverIterations, change_);
+    report = {report.iterations + done.iterations, done.residual, done.converged};
+    if (!done.converged || !updateContacts(dt)) break;
+  }
   return report;
 }
 
 bool Integrator::updateContacts(double dt) {
   const auto update = [&](std::size_t i) {
-    const LoneBubble& lone = lone_[i];
-    const double overlap = lone.wallGap - lone.psiAfter(motion_[i].velocity + change_[i], dt);
-    const bool closed = overlap > 0;
-    if (closed == static_cast<bool>(closed_[i]) || std::abs(overlap) < kWallResolution * lone.radius)
-      return false;
-    closed_[i] = closed;
-    setWallSpring(lone, motion_[i].velocity, closed ? dt : -dt, dt, i);
-    return true;
+    bool changed = false;
+    for (int k = 0; k < walls_[i].count; ++k) changed |= updateContact(i, k, dt);
+    return changed;
   };
   return reduceIndices(lone_.size(), false, update, std::logical_or<>());
 }
 
-void Integrator::setWallSpring(const LoneBubble& lone, const Eigen::Vector3d& velocity, double signedDt,
-                               double dt, std::size_t i) {
-  const Eigen::Vector3d& away = lone.awayFromWall;
-  const double push = wallContact(lone.wallStiffness, lone.psiAfter(velocity, dt), lone.wallGap);
-  system_.own[i] -= signedDt * dt * wallContactSlope(lone.wallStiffness) * away * away.transpose();
-  impulse_[i] += signedDt * push * away;
+bool Integrator::updateContact(std::size_t i, int k, double dt) {
+  const LoneBubble& lone = lone_[i];
+  const NearWall& wall = walls_[i].wall[k];
+  const auto bit = static_cast<std::uint8_t>(1u << k);
+  const double overlap = lone.wallGap - wall.psiAfter(motion_[i].velocity + change_[i], dt);
+  const bool closes = overlap > 0, isClosed = closed_[i] & bit;
+  if (closes == isClosed || std::abs(overlap) < kWallResolution * lone.radius) return false;
+  closed_[i] ^= bit;
+  const double signedDt = closes ? dt : -dt;
+  const double push = wallContact(lone.wallStiffness, wall.psiAfter(motion_[i].velocity, dt), lone.wallGap);
+  system_.own[i] -= signedDt * dt * wallContactSlope(lone.wallStiffness) * wall.away * wall.away.transpose();
+  impulse_[i] += signedDt * push * wall.away;
+  return true;
 }
 
 void Integrator::assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours,
@@ -158,11 +176,14 @@ void Integrator::assembleRow(std::size_t i, const FoamTopology& topology, const 
   }
 }
 
-double Integrator::roundOff() const {
-  const double sum = reduceIndices(
-      impulseScale_.size(), 0.0, [&](std::size_t i) { return impulseScale_[i] * impulseScale_[i]; },
-      std::plus<>());
-  return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+double Integrator::smallestGoal() const {
+  const auto add = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return (p + q).eval(); };
+  const auto squares = [&](std::size_t i) {
+    return Eigen::Vector2d(impulseScale_[i] * impulseScale_[i], mass_[i] * mass_[i]);
+  };
+  const Eigen::Vector2d sum = reduceIndices(mass_.size(), Eigen::Vector2d(0, 0), squares, add);
+  return std::max(4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum.x()),
+                  kRestSpeed * std::sqrt(sum.y()));
 }
 
 double Integrator::kineticEnergy() const {

@@ -9,6 +9,7 @@
 #include "foam/forces/drag.h"
 #include "foam/implicit_solve.h"
 #include "foam/lone_bubble.h"
+#include "foam/near_walls.h"
 #include "foam/neighbours.h"
 #include "foam/pair_forces.h"
 #include "foam/predictor.h"
@@ -28,10 +29,12 @@ class Integrator {
   void describe(const Surroundings& around, BubbleStore& bubbles);
   /// Moves each bubble alone.
   void predict(double dt);
+  /// How far from its centre each bubble can meet a wall within the step [m].
+  std::vector<double> reach(double dt) const;
   /// Adds what neighbours do to each other, solves, and leaves the new velocities in velocities().
   /// Throws NumericalFailure if the solve does not reach the tolerance.
   SolveReport couple(const BubbleStore& bubbles, const FoamTopology& topology, const Neighbours& neighbours,
-                     double dt);
+                     const std::vector<NearWalls>& walls, double dt);
   /// Moves the bubbles with their new velocities.
   void advance(double dt, BubbleStore& bubbles) const;
 
@@ -44,21 +47,23 @@ class Integrator {
   /// Closes and opens wall contacts to suit the motion found so far; true if any changed. A closed one is a
   /// spring in the system, so it stops a bubble however its neighbours push (model, "wall contact").
   bool updateContacts(double dt);
-  /// Adds (signedDt = dt) or removes (-dt) the wall's spring of bubble i, linearised at `velocity`.
-  void setWallSpring(const LoneBubble& lone, const Eigen::Vector3d& velocity, double signedDt, double dt,
-                     std::size_t i);
-  double roundOff() const;
+  bool updateContact(std::size_t i, int k, double dt);
+  /// Solves, and again while wall contacts change.
+  SolveReport solveWithContacts(double dt);
+  /// Residual not worth improving [kg m/s]: round-off, or kRestSpeed of every bubble.
+  double smallestGoal() const;
 
   const FoamParams& params_;
   DragLawTable drag_;
   std::vector<LoneBubble> lone_;
   std::vector<double> mass_;
+  std::vector<NearWalls> walls_;
   std::vector<LinearMotion> motion_;
   std::vector<PairForce> pairForce_;
   BlockSystem system_;
   Vectors3 impulse_, change_, velocity_;
   std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]
-  std::vector<std::uint8_t> closed_;  ///< 1: the wall's spring is closed
+  std::vector<std::uint8_t> closed_;  ///< bit k: the spring of wall k is closed
   ImplicitSolve solver_;
 };
 

@@ -7,8 +7,7 @@
 namespace spume::foam {
 
 /// What acts on one bubble besides its neighbours, as a function of the velocity v with which it ends the
-/// step: the liquid's surface and the wall are taken flat, so it ends at phi + dt v . grad phi and psi + dt
-/// (v - v_s) . grad psi.
+/// step: the liquid's surface is taken flat, so it ends at phi + dt v . grad phi.
 struct LoneBubble {
   Eigen::Vector3d velocity;  ///< at the start of the step [m/s]
   double mass = 0;           ///< inertia [kg]
@@ -26,16 +25,10 @@ struct LoneBubble {
   double viscousDrag = 0;          ///< against the slip, for a bubble afloat [kg/s]
   Eigen::Vector3d liquidVelocity;  ///< [m/s]
 
-  double psi = 0;                ///< [m]
-  Eigen::Vector3d awayFromWall;  ///< grad psi [-]
-  double wallSpeed = 0;          ///< of the wall along grad psi [m/s]
-  double wallGap = 0;            ///< psi below which the wall pushes [m]
-  double wallStiffness = 0;      ///< [N/m]
+  double wallGap = 0;        ///< psi below which the wall pushes [m]
+  double wallStiffness = 0;  ///< [N/m]
 
   double phiAfter(const Eigen::Vector3d& v, double dt) const { return phi + dt * phiSlope * up.dot(v); }
-  double psiAfter(const Eigen::Vector3d& v, double dt) const {
-    return psi + dt * (awayFromWall.dot(v) - wallSpeed);
-  }
 
   /// Buoyancy and liquid adhesion at a signed distance from the surface [N].
   Eigen::Vector3d surfaceForce(double phiAt) const;
