@@ -13,17 +13,25 @@ LayerList::LayerList(const Eigen::Vector3i& size) : mark_(size, kUnreached), nex
   first_ = shape.index(0, 0, 0);
 }
 
-void LayerList::dilate(std::uint8_t layer) {
-  const std::ptrdiff_t si = mark_.stride(0), sj = mark_.stride(1);
+namespace {
+
+/// One row of a dilation, on its own so that nothing the loop reads can alias the bytes it writes.
+void dilateRow(const std::uint8_t* __restrict m, std::uint8_t* __restrict out, std::ptrdiff_t si,
+               std::ptrdiff_t sj, int count, std::uint8_t layer) {
   const std::uint8_t from = layer - 1;
+  for (int k = 0; k < count; ++k) {
+    const std::uint8_t beside = (m[k - si] == from) | (m[k + si] == from) | (m[k - sj] == from) |
+                                (m[k + sj] == from) | (m[k - 1] == from) | (m[k + 1] == from);
+    const std::uint8_t enter = beside & (m[k] == LayerList::kUnreached);
+    out[k] = enter ? layer : m[k];
+  }
+}
+
+}  // namespace
+
+void LayerList::dilate(std::uint8_t layer) {
   forEachRow(mark_.size(), [&](int i, int j) {
-    const std::uint8_t* m = &mark_(i, j, 0);
-    std::uint8_t* out = &next_(i, j, 0);
-    for (int k = 0; k < mark_.size().z(); ++k) {
-      const bool beside = (m[k - si] == from) | (m[k + si] == from) | (m[k - sj] == from) |
-                          (m[k + sj] == from) | (m[k - 1] == from) | (m[k + 1] == from);
-      out[k] = m[k] == kUnreached && beside ? layer : m[k];
-    }
+    dilateRow(&mark_(i, j, 0), &next_(i, j, 0), mark_.stride(0), mark_.stride(1), mark_.size().z(), layer);
   });
   mark_.swap(next_);
 }

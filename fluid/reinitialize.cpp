@@ -114,6 +114,24 @@ float patchDistance(const Seed& s, float rx, float ry, float rz) {
   return beyond > 0 ? std::sqrt(height * height + beyond * beyond) : std::abs(height);
 }
 
+/// Marks one row of cells that differ in sign from a neighbour. On its own so that nothing the loop reads can
+/// alias the bytes it writes.
+void markCrossedRow(const float* __restrict p, std::uint8_t* __restrict mark, std::ptrdiff_t si,
+                    std::ptrdiff_t sj, int count) {
+  for (int k = 0; k < count; ++k) {
+    const float low = std::min(std::min(std::min(p[k - si], p[k + si]), std::min(p[k - sj], p[k + sj])),
+                               std::min(p[k - 1], p[k + 1]));
+    const float high = std::max(std::max(std::max(p[k - si], p[k + si]), std::max(p[k - sj], p[k + sj])),
+                                std::max(p[k - 1], p[k + 1]));
+    const bool crossed = p[k] < 0 ? high >= 0 : low < 0;
+    mark[k] = crossed ? std::uint8_t{0} : LayerList::kUnreached;
+  }
+}
+
+void barRow(const float* __restrict psi, std::uint8_t* __restrict mark, int count) {
+  for (int k = 0; k < count; ++k) mark[k] = psi[k] <= 0 ? LayerList::kBarred : mark[k];
+}
+
 }  // namespace
 
 Reinitializer::Reinitializer(const GridSpec& grid)
@@ -126,21 +144,11 @@ Eigen::Vector3i Reinitializer::cellAt(std::ptrdiff_t offset) const {
 }
 
 void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBoundary* solids) {
-  const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
   DenseField<std::uint8_t>& marks = layers_.marks();
+  const int nz = grid_.cells.z();
   forEachRow(grid_.cells, [&](int i, int j) {
-    const float* p = &phi(i, j, 0);
-    std::uint8_t* mark = &marks(i, j, 0);
-    for (int k = 0; k < grid_.cells.z(); ++k) {
-      const bool wet = p[k] < 0;
-      const bool crossed = (wet != (p[k - si] < 0)) | (wet != (p[k + si] < 0)) | (wet != (p[k - sj] < 0)) |
-                           (wet != (p[k + sj] < 0)) | (wet != (p[k - 1] < 0)) | (wet != (p[k + 1] < 0));
-      mark[k] = crossed ? std::uint8_t{0} : LayerList::kUnreached;
-    }
-    if (!solids) return;
-    const float* psi = &solids->psi(i, j, 0);
-    for (int k = 0; k < grid_.cells.z(); ++k)
-      if (psi[k] <= 0) mark[k] = LayerList::kBarred;
+    markCrossedRow(&phi(i, j, 0), &marks(i, j, 0), phi.stride(0), phi.stride(1), nz);
+    if (solids) barRow(&solids->psi(i, j, 0), &marks(i, j, 0), nz);
   });
 }
 

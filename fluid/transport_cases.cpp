@@ -33,7 +33,7 @@ Eigen::Vector3d rotation(const Eigen::Vector3d& x, const Eigen::Vector3d& centre
 TransportCase zalesakDisk() {
   constexpr double kRadius = 15, kHalfSlot = 2.5, kTop = 85;
   const Eigen::Vector3d middle(50, 75, 0);
-  TransportCase scene{"zalesak disk", {100, 100, 0}, true, 628, {}, {}};
+  TransportCase scene{"zalesak disk", {100, 100, 0}, true, 628, {}, {}, {}};
   scene.phi0 = [=](const Eigen::Vector3d& x) {
     const double ax = x.x() - middle.x(), ay = x.y() - middle.y();
     const double ball = std::hypot(ax, ay) - kRadius;
@@ -42,14 +42,14 @@ TransportCase zalesakDisk() {
     return ay < 0 ? slottedDistance(ball, slot, kHalfSlot - std::abs(ax), ay + rimDrop)
                   : std::max(ball, -slot);
   };
-  scene.velocity = [](const Eigen::Vector3d& x, double) { return rotation(x, {50, 50, 0}, kPi / 314); };
+  scene.velocity = [](const Eigen::Vector3d& x) { return rotation(x, {50, 50, 0}, kPi / 314); };
   return scene;
 }
 
 TransportCase zalesakSphere() {
   constexpr double kRadius = 0.15, kHalfSlot = 0.025, kTop = 0.725;
   const Eigen::Vector3d middle(0.5, 0.75, 0.5);
-  TransportCase scene{"zalesak sphere", {1, 1, 1}, false, 1, {}, {}};
+  TransportCase scene{"zalesak sphere", {1, 1, 1}, false, 1, {}, {}, {}};
   scene.phi0 = [=](const Eigen::Vector3d& x) {
     const Eigen::Vector3d a = x - middle;
     const double ball = a.norm() - kRadius;
@@ -59,30 +59,30 @@ TransportCase zalesakSphere() {
     return a.y() < 0 ? slottedDistance(ball, slot, kHalfSlot - std::abs(a.x()), across - rim)
                      : std::max(ball, -slot);
   };
-  scene.velocity = [](const Eigen::Vector3d& x, double) { return rotation(x, {0.5, 0.5, 0.5}, 2 * kPi); };
+  scene.velocity = [](const Eigen::Vector3d& x) { return rotation(x, {0.5, 0.5, 0.5}, 2 * kPi); };
   return scene;
 }
 
 TransportCase singleVortex() {
-  TransportCase scene{"single vortex", {1, 1, 0}, true, 8, {}, {}};
+  TransportCase scene{"single vortex", {1, 1, 0}, true, 8, {}, {}, {}};
   scene.phi0 = [](const Eigen::Vector3d& x) { return std::hypot(x.x() - 0.5, x.y() - 0.75) - 0.15; };
-  scene.velocity = [](const Eigen::Vector3d& x, double t) {
-    const double sx = std::sin(kPi * x.x()), sy = std::sin(kPi * x.y()), c = std::cos(kPi * t / 8);
-    return Eigen::Vector3d(sx * sx * std::sin(2 * kPi * x.y()) * c, -sy * sy * std::sin(2 * kPi * x.x()) * c,
-                           0);
+  scene.velocity = [](const Eigen::Vector3d& x) {
+    const double sx = std::sin(kPi * x.x()), sy = std::sin(kPi * x.y());
+    return Eigen::Vector3d(sx * sx * std::sin(2 * kPi * x.y()), -sy * sy * std::sin(2 * kPi * x.x()), 0);
   };
+  scene.timeFactor = [](double t) { return std::cos(kPi * t / 8); };
   return scene;
 }
 
 TransportCase enrightDeformation() {
-  TransportCase scene{"enright deformation", {1, 1, 1}, false, 3, {}, {}};
+  TransportCase scene{"enright deformation", {1, 1, 1}, false, 3, {}, {}, {}};
   scene.phi0 = [](const Eigen::Vector3d& x) { return (x - Eigen::Vector3d::Constant(0.35)).norm() - 0.15; };
-  scene.velocity = [](const Eigen::Vector3d& x, double t) {
+  scene.velocity = [](const Eigen::Vector3d& x) {
     const Eigen::Vector3d s = (kPi * x).array().sin(), d = (2 * kPi * x).array().sin();
-    const double c = std::cos(kPi * t / 3);
-    return Eigen::Vector3d(2 * s.x() * s.x() * d.y() * d.z() * c, -d.x() * s.y() * s.y() * d.z() * c,
-                           -d.x() * d.y() * s.z() * s.z() * c);
+    return Eigen::Vector3d(2 * s.x() * s.x() * d.y() * d.z(), -d.x() * s.y() * s.y() * d.z(),
+                           -d.x() * d.y() * s.z() * s.z());
   };
+  scene.timeFactor = [](double t) { return std::cos(kPi * t / 3); };
   return scene;
 }
 

@@ -39,12 +39,19 @@ GridSpec gridOf(const TransportCase& scene, int cells) {
   return grid;
 }
 
-void sampleField(const TransportCase& scene, const GridSpec& grid, double t, MacVelocity& velocity) {
+MacVelocity sampleField(const TransportCase& scene, const GridSpec& grid) {
+  MacVelocity velocity(grid.cells);
   for (int a = 0; a < 3; ++a)
     forEachCell(velocity[a].size(), [&](int i, int j, int k) {
-      velocity[a](i, j, k) = static_cast<float>(scene.velocity(grid.faceCentre(a, i, j, k), t)[a]);
+      velocity[a](i, j, k) = static_cast<float>(scene.velocity(grid.faceCentre(a, i, j, k))[a]);
     });
   fillGhostLayers(velocity);
+  return velocity;
+}
+
+void scaleField(const MacVelocity& field, float factor, MacVelocity& out) {
+  for (int a = 0; a < 3; ++a)
+    for (std::ptrdiff_t n = 0; n < field[a].count(); ++n) out[a].data()[n] = factor * field[a].data()[n];
 }
 
 double fastest(const MacVelocity& velocity) {
@@ -60,6 +67,7 @@ double fastest(const MacVelocity& velocity) {
 struct Study {
   const TransportCase& scene;
   const TransportOptions& options;
+  MacVelocity field;  ///< velocity before its factor of time
   LiquidState state;
   SolidBoundary solids;
   DomainWalls walls;
@@ -72,6 +80,7 @@ struct Study {
   Study(const TransportCase& s, const TransportOptions& o, const GridSpec& grid)
       : scene(s),
         options(o),
+        field(sampleField(s, grid)),
         solids(openSpace(grid)),
         advection(grid),
         reinitializer(grid),
@@ -103,7 +112,8 @@ void Study::correct() {
 }
 
 void Study::step(double t, double dt) {
-  sampleField(scene, state.grid, t + 0.5 * dt, state.velocity);
+  const double factor = scene.timeFactor ? scene.timeFactor(t + 0.5 * dt) : 1;
+  scaleField(field, static_cast<float>(factor), state.velocity);
   advection.advance(options.params.levelSetTransport, state.velocity, dt, state.phi);
   if (options.markers)
     for (MarkerSet* markers : {&state.positive, &state.negative}) {
@@ -169,9 +179,7 @@ TransportResult runTransport(const TransportCase& scene, const TransportOptions&
                              const TransportWatch& watch) {
   const GridSpec grid = gridOf(scene, options.cells);
   Study study(scene, options, grid);
-  MacVelocity fastestField(grid.cells);
-  sampleField(scene, grid, 0, fastestField);
-  const double speed = fastest(fastestField);
+  const double speed = fastest(study.field);
   TransportResult result;
   result.steps = std::max(1, static_cast<int>(std::ceil(scene.duration * speed / (options.cfl * grid.dx))));
   const double dt = scene.duration / result.steps;

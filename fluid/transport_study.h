@@ -18,7 +18,8 @@ struct TransportCase {
   bool planar = false;                                   ///< 2D: a slab kSlabCells cells thick
   double duration = 1;                                   ///< of one round trip
   std::function<double(const Eigen::Vector3d& x)> phi0;  ///< signed distance, < 0 inside
-  std::function<Eigen::Vector3d(const Eigen::Vector3d& x, double t)> velocity;
+  std::function<Eigen::Vector3d(const Eigen::Vector3d& x)> velocity;
+  std::function<double(double t)> timeFactor;  ///< multiplies the velocity; empty: 1
 };
 
 /// Slotted disk of Zalesak (1979) in a 100 x 100 domain, radius 15, slot 5 wide, one turn in 628.
