@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cctype>
 
+#include "coupling/bubble_columns.h"
 #include "coupling/bubble_table.h"
 #include "coupling/nearest_key.h"
 #include "coupling/text_fields.h"
@@ -9,9 +9,7 @@
 namespace spume::coupling {
 namespace {
 
-constexpr std::array<std::string_view, 8> kColumn = {"id", "x", "y", "z", "r", "vx", "vy", "vz"};
-constexpr std::size_t kRequired = 5;  ///< id to r
-constexpr int kIgnored = -1;
+constexpr std::size_t kIgnored = kBubbleColumns;
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -64,7 +62,7 @@ class CsvReader {
   std::string path_;
   TextLines lines_;
   std::vector<std::string> names_;     ///< of the header
-  std::vector<int> role_;              ///< by field: index into kColumn, or kIgnored
+  std::vector<std::size_t> role_;      ///< by field: its BubbleColumn, or kIgnored
   std::vector<std::size_t> rowStart_;  ///< by bubble: bytes before its line
   BubbleTable table_;
 };
@@ -76,8 +74,7 @@ void CsvReader::readHeader(std::string_view line) {
 }
 
 void CsvReader::assignColumn(std::string_view name) {
-  const auto known = std::find(kColumn.begin(), kColumn.end(), name);
-  const int role = known == kColumn.end() ? kIgnored : static_cast<int>(known - kColumn.begin());
+  const std::size_t role = bubbleColumn(name);
   if (role != kIgnored && std::count(role_.begin(), role_.end(), role))
     lines_.fail(name, "column " + std::string(name) + " is given twice");
   names_.emplace_back(name);
@@ -85,14 +82,12 @@ void CsvReader::assignColumn(std::string_view name) {
 }
 
 void CsvReader::requireColumns(std::string_view header) const {
-  const auto given = [&](std::size_t c) {
-    return std::count(role_.begin(), role_.end(), static_cast<int>(c));
-  };
-  const bool velocity = given(5) || given(6) || given(7);
-  for (std::size_t c = 0; c < (velocity ? kColumn.size() : kRequired); ++c) {
-    if (given(c)) continue;
-    const std::string nearest = nearestUnused(kColumn[c]);
-    lines_.fail(header, "column " + std::string(kColumn[c]) + " is missing" +
+  const auto given = [&](std::size_t column) { return std::count(role_.begin(), role_.end(), column); };
+  const bool velocity = given(kVx) || given(kVy) || given(kVz);
+  for (std::size_t column = 0; column < (velocity ? kBubbleColumns : kVx); ++column) {
+    if (given(column)) continue;
+    const std::string nearest = nearestUnused(kBubbleColumnName[column]);
+    lines_.fail(header, "column " + std::string(kBubbleColumnName[column]) + " is missing" +
                             (nearest.empty() ? "" : "; the nearest one is " + quoted(nearest)) +
                             "; the header is " + joined(names_) + ", expected id,x,y,z,r" +
                             (velocity ? ",vx,vy,vz" : ""));
@@ -111,28 +106,28 @@ std::string CsvReader::nearestUnused(std::string_view wanted) const {
 }
 
 void CsvReader::readRow(std::string_view line) {
-  std::array<double, kColumn.size()> value{};
+  BubbleValues value{};
   std::size_t count = 0;
   CommaFields fields(line);
   for (std::string_view field; fields.next(field); ++count) {
     if (count == role_.size())
       lines_.fail(field, "the row has more fields than the header's " + std::to_string(role_.size()));
-    const int role = role_[count];
-    if (role == 0)
+    const std::size_t role = role_[count];
+    if (role == kId)
       table_.id.push_back(idIn(lines_, field));
     else if (role != kIgnored)
-      value[role] = numberIn(lines_, field, kColumn[role]);
+      value[role] = numberIn(lines_, field, kBubbleColumnName[role]);
   }
   if (count < role_.size())
     lines_.fail(line, "the row has " + std::to_string(count) + " fields, the header " +
                           std::to_string(role_.size()) + " (" + joined(names_) + ")");
-  table_.position.emplace_back(value[1], value[2], value[3]);
-  table_.radius.push_back(value[4]);
-  table_.velocity.emplace_back(value[5], value[6], value[7]);
+  table_.position.emplace_back(value[kX], value[kY], value[kZ]);
+  table_.radius.push_back(value[kR]);
+  table_.velocity.emplace_back(value[kVx], value[kVy], value[kVz]);
 }
 
 std::string CsvReader::placeOf(std::size_t row, std::string_view column) const {
-  const auto wanted = std::find(kColumn.begin(), kColumn.end(), column) - kColumn.begin();
+  const std::size_t wanted = bubbleColumn(column);
   CommaFields fields(lines_.lineAt(rowStart_[row]));
   std::string_view field;
   for (std::size_t f = 0; fields.next(field) && role_[f] != wanted; ++f) continue;

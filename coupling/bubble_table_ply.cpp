@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "coupling/bubble_columns.h"
 #include "coupling/bubble_table.h"
 #include "coupling/nearest_key.h"
 #include "coupling/ply_header.h"
@@ -9,12 +10,7 @@
 namespace spume::coupling {
 namespace {
 
-enum Column : std::size_t { kId, kX, kY, kZ, kR, kVx, kVy, kVz, kColumns };
-constexpr std::array<std::string_view, kColumns> kColumnName = {"id", "x", "y", "z", "r", "vx", "vy", "vz"};
 constexpr int kAbsent = -1;
-
-/// A vertex's values in the order of Column.
-using Values = std::array<double, kColumns>;
 
 class PlyReader {
  public:
@@ -33,11 +29,11 @@ class PlyReader {
 
  private:
   void findColumns();
-  void requireColumn(Column column) const;
+  void requireColumn(BubbleColumn column) const;
   void readAscii();
   void readAsciiRow(std::string_view line, std::size_t row);
   void readBinary();
-  void store(std::size_t row, std::uint64_t id, const Values& value);
+  void store(std::size_t row, std::uint64_t id, const BubbleValues& value);
   std::uint64_t binaryId(std::size_t row, double value) const;
   [[noreturn]] void failShort(std::size_t held) const;
   std::string placeOf(std::size_t row, std::string_view column) const;
@@ -45,25 +41,25 @@ class PlyReader {
   const std::string& path_;
   TextLines lines_;
   PlyHeader header_;
-  std::array<int, kColumns> property_{};  ///< by column: index into the header's properties, or kAbsent
-  std::vector<std::size_t> rowStart_;     ///< of an ascii file: bytes before a bubble's line
+  std::array<int, kBubbleColumns> property_{};  ///< by column: index into the header's properties, or kAbsent
+  std::vector<std::size_t> rowStart_;           ///< of an ascii file: bytes before a bubble's line
   BubbleTable table_;
 };
 
 void PlyReader::findColumns() {
-  for (std::size_t c = 0; c < kColumns; ++c) property_[c] = header_.find(kColumnName[c]);
+  for (std::size_t c = 0; c < kBubbleColumns; ++c) property_[c] = header_.find(kBubbleColumnName[c]);
   for (const char* name : {"pscale", "radius"})  // what renderers call it goes before a mere r
     if (header_.find(name) != kAbsent) property_[kR] = header_.find(name);
-  for (const Column column : {kX, kY, kZ, kR}) requireColumn(column);
+  for (const BubbleColumn column : {kX, kY, kZ, kR}) requireColumn(column);
 }
 
-void PlyReader::requireColumn(Column column) const {
+void PlyReader::requireColumn(BubbleColumn column) const {
   if (property_[column] != kAbsent) return;
   std::vector<std::string> unused;
   for (std::size_t k = 0; k < header_.properties.size(); ++k)
     if (std::find(property_.begin(), property_.end(), static_cast<int>(k)) == property_.end())
       unused.push_back(header_.properties[k].name);
-  const std::string wanted = column == kR ? "radius" : std::string(kColumnName[column]);
+  const std::string wanted = column == kR ? "radius" : std::string(kBubbleColumnName[column]);
   const std::string nearest = nearestOf(wanted, unused);
   throw SceneError(path_ + ": the vertices have no property " + wanted +
                    (column == kR ? " (or pscale, or r)" : "") +
@@ -85,7 +81,7 @@ void PlyReader::readAscii() {
 }
 
 void PlyReader::readAsciiRow(std::string_view line, std::size_t row) {
-  Values value{};
+  BubbleValues value{};
   std::uint64_t id = row;
   std::string_view rest = line, word;
   for (std::size_t k = 0; k < header_.properties.size(); ++k) {
@@ -96,7 +92,7 @@ void PlyReader::readAsciiRow(std::string_view line, std::size_t row) {
         std::find(property_.begin(), property_.end(), static_cast<int>(k)) - property_.begin();
     if (column == kId)
       id = idIn(lines_, word);
-    else if (column != kColumns)
+    else if (column != kBubbleColumns)
       value[column] = numberIn(lines_, word, header_.properties[k].name);
   }
   if (nextWord(rest, word)) lines_.fail(word, "the vertex has more numbers than properties");
@@ -108,8 +104,8 @@ void PlyReader::readBinary() {
   if (header_.vertices > data.size() / header_.stride) failShort(data.size() / header_.stride);
   table_.resize(header_.vertices);
   for (std::size_t row = 0; row < header_.vertices; ++row) {
-    Values value{};
-    for (std::size_t c = 0; c < kColumns; ++c) {
+    BubbleValues value{};
+    for (std::size_t c = 0; c < kBubbleColumns; ++c) {
       if (property_[c] == kAbsent) continue;
       const PlyProperty& property = header_.properties[property_[c]];
       value[c] = plyValue(data.data() + row * header_.stride + property.offset, property.type);
@@ -118,7 +114,7 @@ void PlyReader::readBinary() {
   }
 }
 
-void PlyReader::store(std::size_t row, std::uint64_t id, const Values& value) {
+void PlyReader::store(std::size_t row, std::uint64_t id, const BubbleValues& value) {
   table_.id[row] = id;
   table_.position[row] = {value[kX], value[kY], value[kZ]};
   table_.radius[row] = value[kR];
@@ -139,7 +135,7 @@ void PlyReader::failShort(std::size_t held) const {
 
 std::string PlyReader::placeOf(std::size_t row, std::string_view column) const {
   if (rowStart_.empty()) return path_ + ": vertex " + std::to_string(row);
-  const auto wanted = std::find(kColumnName.begin(), kColumnName.end(), column) - kColumnName.begin();
+  const std::size_t wanted = bubbleColumn(column);
   std::string_view rest = lines_.lineAt(rowStart_[row]), word = rest;
   for (int k = 0; k <= property_[wanted]; ++k) nextWord(rest, word);
   return lines_.placeOf(word);
