@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "fluid/marker_correction.h"
+#include "fluid/marker_escape.h"
+#include "fluid/marker_particles.h"
+#include "tests/support/fluid_fields.h"
+
+namespace spume::fluid {
+namespace {
+
+using namespace test;
+
+/// A domain of free space with a level set and markers on both sides.
+struct Pool {
+  GridSpec grid;
+  FluidParams params;
+  DomainWalls walls;
+  SolidBoundary solids;
+  DenseField<float> phi;
+  MarkerSet positive, negative;
+
+  Pool(int n, const ScalarFunction& phi0, const DomainWalls& w = closedWalls())
+      : grid(unitCube(n)), walls(w), solids(buildSolidBoundary(grid, w, {}, 0)), phi(levelSet(grid, phi0)) {}
+
+  MarkerScene scene() const { return {grid, params, walls, solids}; }
+  void seed(std::int64_t subStep = 0) {
+    MarkerSeeder seeder(grid);
+    seeder.reseed(scene(), phi, MarkerSign::positive, subStep, positive);
+    seeder.reseed(scene(), phi, MarkerSign::negative, subStep, negative);
+  }
+};
+
+double flat(const Eigen::Vector3d& x) { return x.y() - 0.5; }
+double sphere(const Eigen::Vector3d& x) { return (x - Eigen::Vector3d(0.5, 0.5, 0.5)).norm() - 0.25; }
+
+TEST(MarkerSeeder, FillsTheBandOnBothSides) {
+  Pool pool(24, flat);
+  pool.seed();
+  // The band of 3 cells: 3 full layers of cells above the surface (which lies on a face) and as many below.
+  const std::size_t full = 3 * 24 * 24 * pool.params.markersPerCell;
+  EXPECT_EQ(pool.positive.size(), full);
+  EXPECT_EQ(pool.negative.size(), full);
+  for (std::size_t n = 0; n < pool.positive.size(); ++n) {
+    const double depth = pool.positive.y[n] - 12;
+    EXPECT_GE(depth, 0.0999);
+    EXPECT_LE(depth, 3.0001);
+    EXPECT_NEAR(pool.positive.radius[n], std::clamp(depth, 0.1, 0.5), 1e-4);
+  }
+  for (std::size_t n = 0; n < pool.negative.size(); ++n) EXPECT_LE(pool.negative.y[n], 11.9001);
+}
+
+TEST(MarkerSeeder, LeavesASeededBandAlone) {
+  Pool pool(24, sphere);
+  pool.seed();
+  const MarkerSet before = pool.positive;
+  pool.seed(1);
+  // A second round may top up cells whose first attempts failed, but neither moves nor deletes.
+  EXPECT_GE(pool.positive.size(), before.size());
+  EXPECT_LE(pool.positive.size(), before.size() * 1.05);
+}
+
+TEST(MarkerSeeder, NeverTouchesEscapedMarkers) {
+  Pool pool(24, flat);
+  pool.positive.append(12.3f, 3, 12.1f, 0.1f);  // deep in the liquid
+  pool.positive.escaped[0] = 1;
+  pool.seed();
+  EXPECT_EQ(std::count(pool.positive.escaped.begin(), pool.positive.escaped.end(), 1), 1);
+}
+
+TEST(MarkerSeeder, GivesTheSameMarkersOnAnyNumberOfThreads) {
+  const auto run = [](int threads) {
+    return onThreads(threads, [] {
+      Pool pool(24, sphere);
+      pool.seed(7);
+      return pool.positive;
+    });
+  };
+  const MarkerSet one = run(1), four = run(4);
+  EXPECT_EQ(one.x, four.x);
+  EXPECT_EQ(one.y, four.y);
+  EXPECT_EQ(one.z, four.z);
+}
+
+TEST(MarkerSorter, SortsByCellAndKeepsTheOrderInside) {
+  const GridSpec grid = unitCube(4);
+  MarkerSet markers;
+  markers.append(3.5f, 0.5f, 0.5f, 0.3f);
+  markers.append(0.5f, 0.5f, 2.5f, 0.1f);
+  markers.append(NAN, 0.5f, 0.5f, 0.4f);
+  markers.append(0.5f, 0.6f, 2.1f, 0.2f);
+  MarkerSorter sorter(grid);
+  sorter.sort(markers);
+  EXPECT_EQ(markers.radius, (std::vector<float>{0.1f, 0.2f, 0.3f}));
+  EXPECT_EQ(sorter.cellStart()[2], 0);
+  EXPECT_EQ(sorter.cellStart()[3], 2);
+  EXPECT_EQ(sorter.cellStart().back(), 3);
+}
+
+TEST(AdvectMarkers, TurnsWithARigidRotationToSecondOrder) {
+  const GridSpec grid = unitCube(32);
+  const auto spin = [](const Eigen::Vector3d& x) { return Eigen::Vector3d(0.5 - x.y(), x.x() - 0.5, 0); };
+  const MacVelocity velocity = macField(grid, spin);  // linear: sampled exactly
+  const Pool pool(32, flat);
+  double error[2];
+  for (const int level : {0, 1}) {
+    MarkerSet markers;
+    markers.append(24, 16, 16, 0.1f);
+    const int steps = 8 << level;
+    for (int step = 0; step < steps; ++step) advectMarkers(pool.scene(), velocity, 1.0 / steps, markers);
+    error[level] = std::hypot(markers.x[0] - 16 - 8 * std::cos(1.0), markers.y[0] - 16 - 8 * std::sin(1.0));
+  }
+  EXPECT_GT(std::log2(error[0] / error[1]), 1.8);
+}
+
+TEST(AdvectMarkers, KeepsMarkersOffWallsAndLetsThemLeaveOpenSides) {
+  DomainWalls walls = closedWalls();
+  walls.closed[1] = false;
+  Pool pool(16, flat, walls);
+  const MacVelocity wind = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(1, -1, 0); });
+  MarkerSet markers;
+  markers.append(15, 0.5f, 8, 0.1f);
+  markers.append(5, 0.5f, 8, 0.1f);
+  advectMarkers(pool.scene(), wind, 2 * pool.grid.dx, markers);
+  MarkerSorter(pool.grid).compact(markers);
+  ASSERT_EQ(markers.size(), 1u);
+  EXPECT_FLOAT_EQ(markers.x[0], 7);
+  EXPECT_NEAR(markers.y[0], 0.1f, 1e-6);
+}
+
+TEST(MarkerCorrection, LeavesAConsistentSurfaceAlone) {
+  Pool pool(24, sphere);
+  pool.seed();
+  DenseField<float> phi = pool.phi;
+  MarkerCorrection correction;
+  correction.apply(static_cast<float>(pool.grid.dx), pool.positive, pool.negative, phi);
+  EXPECT_EQ(correction.escapedCount(), 0u);
+  EXPECT_TRUE(sameBits(phi, pool.phi));
+}
+
+TEST(MarkerCorrection, BringsBackASurfaceThatWasMovedAway) {
+  Pool pool(32, sphere);
+  pool.params.markersPerCell = 64;
+  pool.seed();
+  for (const double shift : {-0.6, 0.6}) {  // cells: the sphere has shrunk or grown
+    DenseField<float> phi =
+        levelSet(pool.grid, [&](const auto& x) { return sphere(x) - shift * pool.grid.dx; });
+    MarkerCorrection correction;
+    correction.apply(static_cast<float>(pool.grid.dx), pool.positive, pool.negative, phi);
+    double sum = 0;
+    int cells = 0;
+    forEachInner(pool.grid.cells, 0, [&](int i, int j, int k) {
+      const double exact = pool.phi(i, j, k);
+      if (std::abs(exact) > 0.5 * pool.grid.dx) return;
+      sum += std::abs(phi(i, j, k) - exact) / pool.grid.dx;
+      ++cells;
+    });
+    // Markers sample the distance with a gap of about 1/4 cell between them, and reach only as far as their
+    // radius.
+    EXPECT_LT(sum / cells, 0.25 * 0.6) << shift;
+  }
+}
+
+TEST(AdjustRadii, GivesAnEscapedMarkerTheSmallestRadius) {
+  Pool pool(16, flat);
+  pool.negative.append(8, 9, 8, 0.5f);  // one cell above the surface
+  pool.negative.append(8, 7.7f, 8, 0.5f);
+  adjustRadii(pool.scene(), pool.phi, MarkerSign::negative, pool.negative);
+  EXPECT_FLOAT_EQ(pool.negative.radius[0], 0.1f);
+  EXPECT_EQ(pool.negative.escaped[0], 1);
+  EXPECT_NEAR(pool.negative.radius[1], 0.3f, 1e-5);
+  EXPECT_EQ(pool.negative.escaped[1], 0);
+}
+
+TEST(MarkerEscape, SharesAddUpToTheAirOfTheSeededCells) {
+  Pool pool(24, sphere);
+  pool.seed();
+  MarkerEscape escape(pool.grid);
+  const double air = escape.refreshGas(pool.scene(), pool.phi, pool.positive);
+  const double shares = std::accumulate(pool.positive.gas.begin(), pool.positive.gas.end(), 0.0);
+  EXPECT_NEAR(shares / air, 1, 1e-5);  // float shares
+  // The air between the sphere and one 3 cells larger, up to the cells that the band cuts.
+  const double inner = std::pow(0.25, 3), outer = std::pow(0.25 + 3 * pool.grid.dx, 3);
+  EXPECT_NEAR(air / (4.18879 * (outer - inner)), 1, 0.1);
+}
+
+TEST(MarkerEscape, FreezesTheShareUnderTheSurface) {
+  Pool pool(16, flat);
+  pool.positive.append(8, 8.5f, 8, 0.5f);
+  MarkerEscape escape(pool.grid);
+  escape.refreshGas(pool.scene(), pool.phi, pool.positive);
+  const float share = pool.positive.gas[0];
+  EXPECT_NEAR(share, pool.grid.cellVolume(), 1e-4 * pool.grid.cellVolume());
+  pool.positive.y[0] = 7.5f;
+  escape.refreshGas(pool.scene(), pool.phi, pool.positive);
+  EXPECT_EQ(pool.positive.gas[0], share);
+}
+
+TEST(MarkerEscape, RemembersTheSpeedRelativeToTheLiquidBelow) {
+  Pool pool(16, flat);
+  pool.positive.append(8, 8.5f, 8, 0.5f);
+  const MacVelocity shear = macField(
+      pool.grid, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.y() > 0.4 ? 2.0 : 0.5, 0, 0); });
+  MarkerEscape escape(pool.grid);
+  escape.refreshSpeed(pool.scene(), pool.phi, shear, 0.01, pool.positive);
+  EXPECT_NEAR(pool.positive.speed[0], 1.5, 1e-5);  // three cells below it is slower by this
+  const MacVelocity uniform = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(3, 0, 0); });
+  escape.refreshSpeed(pool.scene(), pool.phi, uniform, 0.05, pool.positive);
+  EXPECT_NEAR(pool.positive.speed[0], 1.5 * std::exp(-1), 1e-5);  // speedMemory is 50 ms
+}
+
+TEST(MarkerEscape, ReleasesMarkersBelowTheEscapeDepthOnly) {
+  Pool pool(16, flat);
+  pool.positive.append(8, 7.1f, 8, 0.5f);  // 0.9 cells deep
+  pool.positive.append(8, 6.9f, 8, 0.1f);  // 1.1 cells deep
+  pool.positive.append(8, 8.4f, 8, 0.4f);
+  pool.positive.gas = {1, 2, 3};
+  pool.positive.speed = {4, 5, 6};
+  std::vector<EscapedMarker> escaped;
+  MarkerEscape escape(pool.grid);
+  const MacVelocity sink = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(0, -1, 0); });
+  escape.releaseEscaped(pool.scene(), pool.phi, sink, pool.positive, escaped);
+  ASSERT_EQ(escaped.size(), 1u);
+  EXPECT_EQ(escaped[0].gas, 2);
+  EXPECT_EQ(escaped[0].speed, 5);
+  EXPECT_NEAR(escaped[0].position.y(), 6.9 * pool.grid.dx, 1e-6);
+  EXPECT_NEAR(escaped[0].velocity.y(), -1, 1e-6);
+  EXPECT_EQ(pool.positive.size(), 2u);
+}
+
+}  // namespace
+}  // namespace spume::fluid
