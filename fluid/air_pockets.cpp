@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fluid/level_set.h"
-#include "fluid/liquid_bodies.h"
 
 namespace spume::fluid {
 namespace {
@@ -37,6 +36,38 @@ Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i&
   return u;
 }
 
+/// Liquid in the cells within one of the pocket's, each counted once [m^3].
+double liquidAround(const GridSpec& grid, const SolidBoundary& boundary,
+                    const std::vector<Eigen::Vector3i>& cells, const DenseField<float>& phi) {
+  const auto near = [&](const Eigen::Vector3i& c) {
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](const auto& p) { return (p - c).cwiseAbs().maxCoeff() <= 1; });
+  };
+  Eigen::Vector3i low = cells.front(), high = cells.front();
+  for (const Eigen::Vector3i& c : cells) low = low.cwiseMin(c), high = high.cwiseMax(c);
+  low = (low.array() - 1).max(0);
+  high = (high.array() + 1).min(grid.cells.array() - 1);
+  double sum = 0;
+  for (int i = low.x(); i <= high.x(); ++i)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int k = low.z(); k <= high.z(); ++k)
+        if (near({i, j, k}))
+          sum += liquidFractionOfCell(phi, static_cast<float>(grid.dx), i, j, k) *
+                 boundary.cellFraction(i, j, k);
+  return sum * grid.cellVolume();
+}
+
+/// Fills one pocket; its gas is the volume that turned into liquid.
+void fill(const GridSpec& grid, const SolidBoundary& boundary, const MacVelocity& velocity,
+          FilledPocket& pocket, DenseField<float>& phi) {
+  const double before = liquidAround(grid, boundary, pocket.cells, phi);
+  for (const Eigen::Vector3i& c : pocket.cells) {
+    pocket.velocity += cellVelocity(velocity, c) / pocket.pocket.cells;
+    phi(c) = levelOfNeighbours(grid, phi, c);
+  }
+  pocket.pocket.gas = std::max(0.0, liquidAround(grid, boundary, pocket.cells, phi) - before);
+}
+
 }  // namespace
 
 void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary) {
@@ -48,8 +79,8 @@ void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const 
   forEachMember(grid, [&](std::int32_t n, const Eigen::Vector3i& c) {
     AirPocket& pocket = pockets_[n];
     ++pocket.cells;
-    pocket.gas += (1 - liquidFractionOfCell(phi, static_cast<float>(grid.dx), c.x(), c.y(), c.z())) *
-                  boundary.cellFraction(c);
+    const float wet = liquidFractionOfCell(phi, static_cast<float>(grid.dx), c.x(), c.y(), c.z());
+    pocket.gas += (1 - wet) * boundary.cellFraction(c);
     pocket.centroid += grid.cellCentre(c.x(), c.y(), c.z());
     if (reachesOutside(boundary, grid.cells, c)) outside_[n] = 1;
   });
@@ -83,7 +114,6 @@ void AirPockets::dropOpenAir(const GridSpec& grid) {
 
 std::vector<FilledPocket> AirPockets::fillSmall(const GridSpec& grid, const SolidBoundary& boundary,
                                                 const MacVelocity& velocity, DenseField<float>& phi) {
-  find(grid, phi, boundary);
   std::vector<FilledPocket> filled;
   std::vector<std::int32_t> number(pockets_.size(), -1);
   const bool sealed = std::find(outside_.begin(), outside_.end(), 1) == outside_.end();
@@ -98,11 +128,7 @@ std::vector<FilledPocket> AirPockets::fillSmall(const GridSpec& grid, const Soli
   forEachMember(grid, [&](std::int32_t n, const Eigen::Vector3i& c) {
     if (number[n] >= 0) filled[number[n]].cells.push_back(c);
   });
-  for (FilledPocket& pocket : filled)
-    for (const Eigen::Vector3i& c : pocket.cells) {
-      pocket.velocity += cellVelocity(velocity, c) / pocket.pocket.cells;
-      phi(c) = levelOfNeighbours(grid, phi, c);
-    }
+  for (FilledPocket& pocket : filled) fill(grid, boundary, velocity, pocket, phi);
   return filled;
 }
 

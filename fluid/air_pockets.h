@@ -35,10 +35,9 @@ class AirPockets {
   /// Labels them. A domain without any open boundary has closed pockets only.
   void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 
-  /// Fills the small ones: phi becomes negative there. Returns all of them in the order of their first cells;
-  /// those of one cell are marker noise and give no bubble. The largest pocket of a domain without open
-  /// boundary is its headspace and stays whatever its size. `find` is called first and the labels stay valid
-  /// after.
+  /// Fills the small ones that the last `find` saw in the same phi, which becomes negative there. Returns all
+  /// of them in the order of their first cells; those of one cell are marker noise and give no bubble. The
+  /// largest pocket of a domain without open boundary is its headspace and stays whatever its size.
   std::vector<FilledPocket> fillSmall(const GridSpec& grid, const SolidBoundary& boundary,
                                       const MacVelocity& velocity, DenseField<float>& phi);
 

@@ -1,14 +1,10 @@
 #include "fluid/cut_fractions.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 namespace spume::fluid {
 namespace {
-
-// Smallest component of a normalised plane normal: below it the cubic pieces lose their digits, and the
-// volume changes by less than this.
-constexpr double kSmallestSlope = 1e-9;
 
 /// Fraction of the edge from a positive end `a` to a negative end `b` that is positive.
 double positivePart(double a, double b) { return a / (a - b); }
@@ -26,18 +22,6 @@ double tetrahedronFraction(std::array<double, 4> v) {
   const double ac = positivePart(v[0], v[2]), ad = positivePart(v[0], v[3]);
   const double bc = positivePart(v[1], v[2]), bd = positivePart(v[1], v[3]);
   return bc * bd + ac * ad * (1 - bd) + ac * bd * (1 - bc);  // a wedge as three tetrahedra
-}
-
-/// Volume of {m.x < a} in the unit cube for 0 < m0 <= m1 <= m2, sum m = 1, 0 < a <= 1/2.
-double cutVolume(const std::array<double, 3>& m, double a) {
-  const double m01 = m[0] + m[1], product = 6 * m[0] * m[1] * m[2];
-  const auto square = [](double x) { return x * x; };
-  if (a < m[0]) return a * a * a / product;
-  if (a < m[1]) return 0.5 * a * (a - m[0]) / (m[1] * m[2]) + square(m[0]) / (6 * m[1] * m[2]);
-  const double two = square(m[0]) * (m[0] - 3 * a) + square(m[1]) * (m[1] - 3 * a);
-  if (a < std::min(m[2], m01)) return (square(a) * (3 * m01 - a) + two) / product;
-  if (m01 <= m[2]) return (a - 0.5 * m01) / m[2];
-  return (square(a) * (3 - 2 * a) + two + square(m[2]) * (m[2] - 3 * a)) / product;
 }
 
 }  // namespace
@@ -78,16 +62,6 @@ double cubeFraction(const std::array<double, 8>& corner) {
   for (const auto& path : kPath)
     sum += tetrahedronFraction({corner[0], corner[path[0]], corner[path[1]], corner[7]});
   return sum / 6;
-}
-
-double planeFraction(double value, const Eigen::Vector3d& slope) {
-  std::array<double, 3> m{std::abs(slope.x()), std::abs(slope.y()), std::abs(slope.z())};
-  const double sum = m[0] + m[1] + m[2];
-  if (2 * std::abs(value) >= sum) return value < 0 ? 1 : 0;
-  std::sort(m.begin(), m.end());
-  for (double& component : m) component = std::max(component / sum, kSmallestSlope);
-  const double a = 0.5 - value / sum;
-  return a <= 0.5 ? cutVolume(m, a) : 1 - cutVolume(m, 1 - a);
 }
 
 }  // namespace spume::fluid

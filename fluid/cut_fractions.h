@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 
 namespace spume::fluid {
@@ -13,9 +12,5 @@ double squareFraction(const std::array<double, 4>& corner);
 /// Fraction of a cube in which the field is positive, linear on the six tetrahedra around the diagonal from
 /// corner 0 to 7; bit a of a corner's number tells its side along axis a. Exact for a linear field [-].
 double cubeFraction(const std::array<double, 8>& corner);
-
-/// Fraction of the unit cube centred at 0 in which `value` + `slope`.x < 0 [-] [Scardovelli and Zaleski 2000,
-/// Sec. 2].
-double planeFraction(double value, const Eigen::Vector3d& slope);
 
 }  // namespace spume::fluid

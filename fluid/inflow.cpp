@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "fluid/counter_random.h"
 #include "fluid/cut_fractions.h"
 #include "fluid/errors.h"
 #include "fluid/level_set.h"
-#include "fluid/liquid_bodies.h"
 
 namespace spume::fluid {
 namespace {
@@ -57,11 +57,12 @@ void validate(const Inflow& inflow) {
   if (!(inflow.turbulence >= 0 && inflow.turbulence <= 0.5)) reject("turbulence must be 0 to 0.5");
 }
 
-double volumeAround(const std::vector<Eigen::Vector3i>& cells, const DenseField<float>& phi, float dx,
-                    const SolidBoundary& boundary) {
+/// Liquid in the given cells, in units of dx^3.
+double liquidIn(const std::vector<Eigen::Vector3i>& cells, double dx, const DenseField<float>& phi,
+                const SolidBoundary& boundary) {
   double sum = 0;
   for (const Eigen::Vector3i& c : cells)
-    sum += liquidFractionOfCell(phi, dx, c.x(), c.y(), c.z()) * boundary.cellFraction(c);
+    sum += liquidFractionOfCell(phi, static_cast<float>(dx), c.x(), c.y(), c.z()) * boundary.cellFraction(c);
   return sum;
 }
 
@@ -132,38 +133,40 @@ double InflowSet::fluctuation(std::size_t n, double t, const Eigen::Vector3d& x)
 }
 
 /// Velocities of the jet on the nozzle's faces, normalised to the exact flux, and the sources at its back.
-void InflowSet::setSpeed(std::size_t n, double t, const SolidBoundary& boundary) {
+void InflowSet::setSpeed(std::size_t n, double t, SolidBoundary& boundary) {
   const Inflow& inflow = inflows_[n];
   Nozzle& nozzle = nozzles_[n];
-  const auto eachSide = [&](const Face& face,
-                            const auto& body) {  // outflow of the lower cell = inflow of the upper
-    const float flow = face.coverage * boundary.open[face.axis](face.cell) * face.velocity;
+  const auto eachSide = [](const Face& face,
+                           const auto& body) {  // outflow of the lower cell, inflow of the upper
+    const float flow = face.coverage * face.savedOpen * face.velocity;
     body(face.cell - Eigen::Vector3i::Unit(face.axis), flow);
     body(face.cell, -flow);
   };
   for (Face& face : nozzle.faces) {
     const Eigen::Vector3i& c = face.cell;
-    const double swing =
-        inflow.turbulence > 0
-            ? inflow.turbulence * fluctuation(n, t, grid_.faceCentre(face.axis, c.x(), c.y(), c.z()))
-            : 0;
-    face.velocity = static_cast<float>(inflow.velocity[face.axis] * scaleAt(inflow, t) * (1 + swing));
+    double speed = inflow.velocity[face.axis] * scaleAt(inflow, t);
+    if (inflow.turbulence > 0)
+      speed *= 1 + inflow.turbulence * fluctuation(n, t, grid_.faceCentre(face.axis, c.x(), c.y(), c.z()));
+    face.velocity = static_cast<float>(speed);
     eachSide(face, [&](const Eigen::Vector3i& cell, float outflow) { balance_(cell) += outflow; });
   }
   double filled = 0;
   nozzle.sources.clear();
   const auto settle = [&](const Eigen::Vector3i& cell, float) {
+    const float outflow = std::exchange(balance_(cell), 0);
     if (!balance_.contains(cell.x(), cell.y(), cell.z())) return;
-    const float outflow = balance_(cell);
-    balance_(cell) = 0;
+    if (!boundary.hasOpenFace(cell.x(), cell.y(), cell.z())) return;  // inside the nozzle
     if (outflow < 0) filled -= outflow;
     if (outflow > 0) nozzle.sources.push_back({cell, outflow});
   };
   for (const Face& face : nozzle.faces) eachSide(face, settle);
-  balance_.fill(0);  // cells outside the grid
   const double factor = filled > 0 ? flux(n, t) / (filled * grid_.dx * grid_.dx) : 0;
-  for (Face& face : nozzle.faces) face.velocity = static_cast<float>(factor * face.velocity);
   for (Source& source : nozzle.sources) source.rate = static_cast<float>(factor * source.rate / grid_.dx);
+  for (Face& face : nozzle.faces) {
+    face.velocity = static_cast<float>(factor * face.velocity);
+    boundary.velocity[face.axis](face.cell) =
+        face.savedOpen * face.coverage * face.velocity + (1 - face.savedOpen) * face.savedVelocity;
+  }
 }
 
 void InflowSet::release(Nozzle& nozzle, SolidBoundary& boundary) const {
@@ -180,10 +183,8 @@ void InflowSet::release(Nozzle& nozzle, SolidBoundary& boundary) const {
 void InflowSet::close(Nozzle& nozzle, SolidBoundary& boundary) const {
   for (Face& face : nozzle.faces) {
     float& open = boundary.open[face.axis](face.cell);
-    float& velocity = boundary.velocity[face.axis](face.cell);
     face.savedOpen = open;
-    face.savedVelocity = velocity;
-    velocity = open * face.coverage * face.velocity + (1 - open) * velocity;
+    face.savedVelocity = boundary.velocity[face.axis](face.cell);
     open = 0;
     boundary.prescribed[face.axis](face.cell) = 1;
   }
@@ -198,14 +199,12 @@ const std::vector<PouredVolume>& InflowSet::stamp(double t, double dt, DenseFiel
     Nozzle& nozzle = nozzles_[n];
     if (!(scaleAt(inflows_[n], t) > 0)) continue;
     const bool opens = t - dt <= 0 || !(scaleAt(inflows_[n], t - dt) > 0);
-    const double before =
-        opens ? volumeAround(nozzle.touched, phi, static_cast<float>(grid_.dx), boundary) : 0;
+    const double before = opens ? liquidIn(nozzle.touched, grid_.dx, phi, boundary) : 0;
     for (const Cell& cell : nozzle.cells) phi(cell.cell) = std::min(phi(cell.cell), cell.sdf);
-    const double filling =
-        opens ? volumeAround(nozzle.touched, phi, static_cast<float>(grid_.dx), boundary) - before : 0;
+    const double filling = opens ? liquidIn(nozzle.touched, grid_.dx, phi, boundary) - before : 0;
     poured_.push_back({flux(n, t) * dt + filling * grid_.cellVolume(), nozzle.deepest});
-    setSpeed(n, t, boundary);
     close(nozzle, boundary);
+    setSpeed(n, t, boundary);
   }
   return poured_;
 }

@@ -84,7 +84,7 @@ class InflowSet {
   double scaleAt(const Inflow& inflow, double t) const;
   Nozzle rasterise(const Inflow& inflow) const;
   void addFace(const Inflow& inflow, int axis, const Eigen::Vector3i& c, Nozzle& nozzle) const;
-  void setSpeed(std::size_t n, double t, const SolidBoundary& boundary);
+  void setSpeed(std::size_t n, double t, SolidBoundary& boundary);
   double fluctuation(std::size_t n, double t, const Eigen::Vector3d& x) const;
   void release(Nozzle& nozzle, SolidBoundary& boundary) const;
   void close(Nozzle& nozzle, SolidBoundary& boundary) const;

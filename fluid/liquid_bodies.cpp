@@ -1,5 +1,7 @@
 #include "fluid/liquid_bodies.h"
 
+#include <algorithm>
+
 #include "fluid/level_set.h"
 
 namespace spume::fluid {
@@ -44,7 +46,7 @@ void LiquidBodies::find(const GridSpec& grid, const DenseField<float>& phi, cons
   measure(grid, phi, boundary);
 }
 
-/// Sums in the order of the cells; only the fractions are worth computing in parallel.
+/// Sums in the order of the cells; the fractions alone are worth computing in parallel.
 void LiquidBodies::measure(const GridSpec& grid, const DenseField<float>& phi,
                            const SolidBoundary& boundary) {
   if (fraction_.size() != grid.cells) fraction_ = DenseField<float>(grid.cells);

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include "fluid/air_pockets.h"
+#include "fluid/level_set.h"
+#include "fluid/liquid_bodies.h"
+#include "tests/fluid_scenery.h"
+
+namespace spume::fluid {
+namespace {
+
+using namespace testing;
+
+/// Liquid up to the middle of the box, with single cells of air dug out of it.
+DenseField<float> poolWithHoles(const GridSpec& grid, const std::vector<Eigen::Vector3i>& holes) {
+  auto phi = sampleCells(grid, [](const Eigen::Vector3d& x) { return x.y() - 0.08; });
+  for (const Eigen::Vector3i& c : holes) phi(c) = static_cast<float>(0.2 * grid.dx);
+  return phi;
+}
+
+TEST(AirPockets, FillsUpToFourCellsAndKeepsTheRest) {
+  const GridSpec grid = boxGrid(16);
+  const SolidBoundary boundary = buildSolidBoundary(grid, DomainWalls{}, {}, 0);
+  DenseField<float> phi = poolWithHoles(grid, {{3, 2, 3},  // one cell
+                                               {6, 2, 6},
+                                               {6, 2, 7},
+                                               {7, 2, 7},  // three, an L
+                                               {9, 3, 3},
+                                               {10, 3, 3},
+                                               {11, 3, 3},
+                                               {12, 3, 3},
+                                               {13, 3, 3}});  // five
+  AirPockets pockets;
+  MacVelocity velocity(grid.cells);
+  velocity[0].fill(0.5f);
+  pockets.find(grid, phi, boundary);
+  const double before = liquidVolume(grid, phi, boundary);
+  const auto filled = pockets.fillSmall(grid, boundary, velocity, phi);
+  ASSERT_EQ(filled.size(), 2u);
+  EXPECT_EQ(filled[0].pocket.cells, 1);
+  EXPECT_EQ(filled[1].pocket.cells, 3);
+  EXPECT_TRUE(filled[1].pocket.centroid.isApprox(
+      (grid.cellCentre(6, 2, 6) + grid.cellCentre(6, 2, 7) + grid.cellCentre(7, 2, 7)) / 3));
+  EXPECT_TRUE(filled[1].velocity.isApprox(Eigen::Vector3d(0.5, 0, 0)));
+  for (const FilledPocket& pocket : filled) {
+    for (const Eigen::Vector3i& c : pocket.cells) EXPECT_LT(phi(c), 0);
+  }
+  EXPECT_NEAR(filled[0].pocket.gas + filled[1].pocket.gas, liquidVolume(grid, phi, boundary) - before, 1e-12);
+  EXPECT_GT(phi(11, 3, 3), 0);
+  pockets.find(grid, phi, boundary);
+  ASSERT_EQ(pockets.pockets().size(), 1u);
+  EXPECT_EQ(pockets.pockets()[0].cells, 5);
+  EXPECT_EQ(pockets.label()(11, 3, 3), 0);
+  EXPECT_EQ(pockets.label()(3, 12, 3), -1);
+}
+
+TEST(AirPockets, TheHeadspaceOfASealedBoxIsAPocketThatStays) {
+  const GridSpec grid = boxGrid(8);
+  const SolidBoundary boundary = buildSolidBoundary(grid, sealed(), {}, 0);
+  DenseField<float> phi(grid.cells, static_cast<float>(-grid.dx));
+  phi(4, 7, 4) = phi(4, 7, 5) = static_cast<float>(0.5 * grid.dx);
+  AirPockets pockets;
+  pockets.find(grid, phi, boundary);
+  EXPECT_TRUE(pockets.fillSmall(grid, boundary, MacVelocity(grid.cells), phi).empty());
+  EXPECT_EQ(pockets.pockets().size(), 1u);
+}
+
+TEST(LiquidBodies, DropsAndPoolAreSeparateWithTheirVolumes) {
+  const GridSpec grid = boxGrid(32);
+  const SolidBoundary boundary = buildSolidBoundary(grid, DomainWalls{}, {}, 0);
+  const double radius = 0.02;
+  const auto phi = sampleCells(grid, [&](const Eigen::Vector3d& x) {
+    return std::min(x.y() - 0.0517, (x - Eigen::Vector3d(0.08, 0.11, 0.08)).norm() - radius);
+  });
+  LiquidBodies liquid;
+  liquid.find(grid, phi, boundary);
+  ASSERT_EQ(liquid.bodies.size(), 2u);
+  EXPECT_NEAR(liquid.bodies[0].volume, 0.16 * 0.16 * 0.0517, 1e-7 * 0.16 * 0.16);  // phi is rounded to float
+  const double sphere = 4.18879020 * radius * radius * radius;
+  EXPECT_NEAR(liquid.bodies[1].volume / sphere, 1, 0.5 / 16);  // planes in cells: (dx/R)^2/2 at R = 4 dx
+  EXPECT_NEAR(liquid.volume, liquid.bodies[0].volume + liquid.bodies[1].volume, 1e-12);
+  EXPECT_NEAR(liquid.volume, liquidVolume(grid, phi, boundary), 1e-15);
+  EXPECT_TRUE(liquid.bodies[0].touchesAir && liquid.bodies[1].touchesAir);
+}
+
+}  // namespace
+}  // namespace spume::fluid
