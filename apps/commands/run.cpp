@@ -1,10 +1,7 @@
 #include <tbb/global_control.h>
 
-#include <chrono>
-#include <cstdio>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "apps/commands/commands.h"
 #include "apps/duration.h"
@@ -29,7 +26,9 @@ int run(const RunOptions& options) {
   session.folder = options.output.empty() ? "out/" + session.scene.name : options.output;
   session.restart = options.restart;
   session.threads =
-      options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+      options.threads > 0
+          ? options.threads
+          : static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   if (!options.maxWall.empty()) session.maxWall = parseDuration(options.maxWall);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, session.threads);
   return runSession(session);
