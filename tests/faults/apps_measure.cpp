@@ -1,20 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/support/apps_program.h"
 
 namespace spume::apps::test {
 namespace {
 
 const std::string kSound = "id,x,y,z,r\n0,0,0,0,1\n1,1,0,0,1\n";
-
-/// The program refused with `code` and one line that holds `part`.
-void expectRefused(const Outcome& outcome, int code, const std::string& part) {
-  EXPECT_EQ(outcome.code, code) << outcome.errors;
-  EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " is not in: " << outcome.errors;
-  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-}
 
 TEST(MeasureFaults, BadRowNamesItsPlaceAndWritesNothing) {
   const Scratch scratch;

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -55,6 +56,13 @@ inline Outcome runSpume(const std::string& arguments) {
   std::filesystem::remove(base + ".out");
   std::filesystem::remove(base + ".err");
   return outcome;
+}
+
+/// The program refused with `code` and one line that holds `part`.
+inline void expectRefused(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(part), std::string::npos) << part << " is not in: " << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
 }
 
 }  // namespace spume::apps::test
