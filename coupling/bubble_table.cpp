@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 
 #include "coupling/atomic_file.h"
@@ -17,17 +18,31 @@ using PlaceOf = std::function<std::string(std::size_t row, std::string_view colu
 constexpr const char* kAxis[] = {"x", "y", "z"};
 constexpr const char* kVelocity[] = {"vx", "vy", "vz"};
 
+/// Volumes and products of areas of longer ones overflow [m]; those of radii below its inverse vanish.
+constexpr double kLargestLength = 1e50;
+
 std::string shown(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
 }
 
+[[noreturn]] void failRadius(const BubbleTable& bubbles, std::size_t row, const std::string& what,
+                             const PlaceOf& placeOf) {
+  throw SceneError(placeOf(row, "r") + ": radius r = " + shown(bubbles.radius[row]) + " of bubble " +
+                   std::to_string(bubbles.id[row]) + what);
+}
+
 void checkRadius(const BubbleTable& bubbles, std::size_t row, const PlaceOf& placeOf) {
-  const double r = bubbles.radius[row];
-  if (std::isfinite(r) && r > 0) return;
-  throw SceneError(placeOf(row, "r") + ": radius r = " + shown(r) + " of bubble " +
-                   std::to_string(bubbles.id[row]) + "; it must be finite and > 0 [m]");
+  const double r = bubbles.radius[row], farthest = bubbles.position[row].cwiseAbs().maxCoeff();
+  if (!std::isfinite(r) || !(r > 0)) failRadius(bubbles, row, "; it must be finite and > 0 [m]", placeOf);
+  if (r < 1 / kLargestLength || r > kLargestLength)
+    failRadius(bubbles, row, "; it must lie in 1e-50 to 1e50 m", placeOf);
+  if (farthest * std::numeric_limits<double>::epsilon() > r)
+    failRadius(bubbles, row,
+               ": double precision cannot tell its centre from its surface at " + shown(farthest) +
+                   " m from the origin; move the bubbles nearer",
+               placeOf);
 }
 
 void checkVector(const Eigen::Vector3d& value, const char* const (&column)[3], const char* unit,

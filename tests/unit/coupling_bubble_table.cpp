@@ -51,13 +51,14 @@ TEST(BubbleTable, CsvVelocitiesAreRead) {
 }
 
 TEST(BubbleTable, CsvNumbersAreExact) {
-  const BubbleTable bubbles = parseBubbleCsv(
-      "b.csv", "id,x,y,z,r\n18446744073709551615,0.10000000000000001,4.9406564584124654e-324,-0,1e308\n");
+  const BubbleTable bubbles = parseBubbleCsv("b.csv",
+                                             "id,x,y,z,r\n18446744073709551615,0.10000000000000001,4."
+                                             "9406564584124654e-324,-0,1.0000000000000001e-3\n");
   EXPECT_EQ(bubbles.id[0], ~std::uint64_t{0});
   EXPECT_EQ(bubbles.position[0].x(), .1);
   EXPECT_EQ(bubbles.position[0].y(), std::numeric_limits<double>::denorm_min());
   EXPECT_TRUE(std::signbit(bubbles.position[0].z()));
-  EXPECT_EQ(bubbles.radius[0], 1e308);
+  EXPECT_EQ(bubbles.radius[0], 1e-3);
 }
 
 std::string asciiPly(const std::string& radius) {
