@@ -1,0 +1,97 @@
+// The linear solve against a system whose solution is known.
+#include <gtest/gtest.h>
+
+#include "foam/counter_random.h"
+#include "foam/implicit_solve.h"
+#include "foam/neighbours.h"
+
+namespace spume::foam {
+namespace {
+
+Eigen::Vector3d drawn(CounterRandom& random) {
+  return {2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1};
+}
+
+/// A seeded system of n bodies in a chain with extra links, stiff against their masses.
+BlockSystem randomSystem(int n, double stiffness) {
+  std::vector<OverlapPair> pairs;
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < std::min(n, i + 4); ++j) pairs.push_back({i, j, 1.0, -1});
+  Neighbours neighbours;
+  neighbours.build(static_cast<std::size_t>(n), pairs);
+  BlockSystem a;
+  a.start = neighbours.start, a.other = neighbours.other;
+  a.block.resize(a.other.size());
+  for (std::size_t e = 0; e < a.block.size(); ++e) {
+    CounterRandom random(11, static_cast<std::uint64_t>(neighbours.pair[e]), 0);
+    a.block[e] = {std::sqrt(stiffness) * drawn(random).normalized(), 0.1 * stiffness * random.uniform()};
+  }
+  for (int i = 0; i < n; ++i) {
+    CounterRandom random(12, static_cast<std::uint64_t>(i), 0);
+    const Eigen::Vector3d u = drawn(random);
+    a.own.push_back(Eigen::Matrix3d::Identity() * (0.5 + random.uniform()) + u * u.transpose());
+  }
+  return a;
+}
+
+Eigen::MatrixXd dense(const BlockSystem& a) {
+  const auto n = static_cast<Eigen::Index>(a.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    matrix.block<3, 3>(3 * i, 3 * i) = a.diagonal(static_cast<std::size_t>(i));
+    for (auto e = a.start[i]; e < a.start[i + 1]; ++e)
+      matrix.block<3, 3>(3 * i, 3 * a.other[e]) = -(a.block[e].along * a.block[e].along.transpose() +
+                                                    a.block[e].across * Eigen::Matrix3d::Identity());
+  }
+  return matrix;
+}
+
+Vectors3 randomVectors(std::size_t n) {
+  Vectors3 b;
+  for (std::size_t i = 0; i < n; ++i) {
+    CounterRandom random(13, i, 0);
+    b.push_back(drawn(random));
+  }
+  return b;
+}
+
+TEST(ImplicitSolve, FindsTheVectorADenseMatrixWasAppliedTo) {
+  const BlockSystem a = randomSystem(60, 1e4);
+  const Vectors3 exact = randomVectors(60);
+  const Eigen::MatrixXd matrix = dense(a);
+  Vectors3 b(60, Eigen::Vector3d::Zero()), x(60, Eigen::Vector3d::Zero());
+  for (Eigen::Index i = 0; i < 180; ++i)
+    for (Eigen::Index j = 0; j < 180; ++j) b[i / 3][i % 3] += matrix(i, j) * exact[j / 3][j % 3];
+  ImplicitSolve solver;
+  EXPECT_TRUE(solver.solve(a, b, 1e-12 * solver.residual(a, b, x), 2000, x).converged);
+  // Error <= residual x conditioning: 1e-12 x (about 1e5 / 0.5).
+  for (std::size_t i = 0; i < 60; ++i) EXPECT_LE((x[i] - exact[i]).norm(), 1e-6);
+}
+
+TEST(ImplicitSolve, LeavesNoResidualAgainstARigidShift) {
+  const BlockSystem a = randomSystem(40, 1e3);
+  const Vectors3 b = randomVectors(40);
+  Vectors3 x(40, Eigen::Vector3d::Zero());
+  ImplicitSolve solver;
+  solver.solve(a, b, 1e-2 * solver.residual(a, b, x), 100, x);  // stopped early on purpose
+  Eigen::Vector3d left = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < b.size(); ++i) left += b[i] - a.row(i, x);
+  EXPECT_LE(left.norm(), 1e-12);  // round-off of sums of order 1e3
+}
+
+TEST(ImplicitSolve, SaysSoWhenItDoesNotConverge) {
+  const BlockSystem a = randomSystem(60, 1e6);
+  Vectors3 x(60, Eigen::Vector3d::Zero());
+  EXPECT_FALSE(ImplicitSolve().solve(a, randomVectors(60), 1e-12, 3, x).converged);
+}
+
+TEST(Neighbours, ListEveryPairFromBothSidesInOrder) {
+  Neighbours neighbours;
+  neighbours.build(4, {{0, 2, 1, -1}, {0, 3, 1, -1}, {1, 2, 1, -1}, {2, 3, 1, -1}});
+  EXPECT_EQ(neighbours.start, (std::vector<std::int32_t>{0, 2, 3, 6, 8}));
+  EXPECT_EQ(neighbours.other, (std::vector<std::int32_t>{2, 3, 2, 0, 1, 3, 0, 2}));
+  EXPECT_EQ(neighbours.pair, (std::vector<std::int32_t>{0, 1, 2, 0, 2, 3, 1, 3}));
+}
+
+}  // namespace
+}  // namespace spume::foam
