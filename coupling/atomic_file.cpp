@@ -51,11 +51,16 @@ void replaceFile(const std::string& path, std::string_view contents) {
   });
 }
 
-std::string readFile(const std::string& path) {
-  if (std::filesystem::is_directory(path)) fail(path, "read", EISDIR);
+void checkReadable(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail(path, "read", EISDIR);
   errno = 0;
+  if (!std::ifstream(path, std::ios::binary)) fail(path, "read", errno ? errno : EIO);
+}
+
+std::string readFile(const std::string& path) {
+  checkReadable(path);
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "read", errno ? errno : EIO);
   std::ostringstream contents;
   contents << file.rdbuf();
   if (file.bad() || contents.bad()) fail(path, "read", errno ? errno : EIO);

@@ -16,6 +16,9 @@ void replaceFile(const std::string& path, const std::function<void(const std::st
 /// The same for contents held in memory.
 void replaceFile(const std::string& path, std::string_view contents);
 
+/// Throws FileError unless `path` is a file that can be opened for reading.
+void checkReadable(const std::string& path);
+
 /// The whole file. Throws FileError.
 std::string readFile(const std::string& path);
 

@@ -9,8 +9,9 @@
 
 namespace spume::coupling {
 
-/// Writes `folder`/checkpoint.######.bin (the number is the frame): header, resolved scene, seed, SIMD path,
-/// every column bit for bit, checksum. Atomic; afterwards only the two newest remain. Throws FileError.
+/// Writes `folder`/checkpoint.######.bin (the number is the frame): header, resolved scene, SIMD path, every
+/// column bit for bit, checksum. Atomic; afterwards only the two newest remain. Creates the folder. Throws
+/// FileError.
 void writeCheckpoint(const std::string& folder, const Scene& scene, const SimulationState& state);
 
 struct LoadedCheckpoint {
@@ -21,10 +22,12 @@ struct LoadedCheckpoint {
 
 /// The newest checkpoint of `scene` that is whole; nothing if the folder holds none. Throws SceneError,
 /// naming every difference, if it belongs to another scene, seed or SIMD path, and FileError if all are
-/// damaged. Keys that do not change the motion may differ: [output], [camera], scene.title, time.frames.
+/// damaged. Keys that do not change the motion may differ: [output], [camera], scene.name, scene.title,
+/// time.frames.
 std::optional<LoadedCheckpoint> readNewestCheckpoint(const std::string& folder, const Scene& scene);
 
-/// One line per key whose value differs between two resolved scenes: "foam.wetness: 0.4 there, 0.5 here".
+/// One line per key whose value differs between two resolved scenes (texts of writeScene), those that do not
+/// change the motion left out: "foam.wetness = 0.4 there, 0.5 here".
 std::vector<std::string> sceneDifferences(const std::string& there, const std::string& here);
 
 }  // namespace spume::coupling

@@ -20,16 +20,18 @@ struct LiquidCacheOptions {
   bool solid = true;               ///< write `solid`, the distance to solids and walls
 };
 
-/// A liquid read back. Velocity is known within the cached band and interior; grad p and markers are not
+/// A liquid read back. Velocity is known in the liquid and near its surface; grad p and markers are not
 /// cached.
 struct LiquidFrame {
   FrameStamp stamp;
-  fluid::LiquidState liquid;     ///< phi clamped to the narrow band [m]
-  fluid::DenseField<float> psi;  ///< distance to solids and walls [m]; large where no `solid` was cached
+  fluid::LiquidState liquid;  ///< phi clamped to the narrow band [m]
+  fluid::DenseField<float>
+      psi;                ///< distance to solids and walls [m]; to the box of the grid if none was cached
+  bool hasSolid = false;  ///< psi was cached
 };
 
-/// Writes liquid.####.vdb: `surface`, `vel` and, if asked, `solid` (see fluid/vdb_grids.h). Atomic. Throws
-/// FileError.
+/// Writes liquid.####.vdb: `surface`, `vel` and, if asked, `solid` (see fluid/vdb_grids.h), each with the
+/// metadata frame, time, fps. Atomic. Throws FileError.
 void writeLiquidFrame(const std::string& path, const fluid::LiquidState& liquid,
                       const fluid::SolidBoundary& solids, const FrameStamp& stamp,
                       const LiquidCacheOptions& options = {});

@@ -1,0 +1,55 @@
+#include "coupling/liquid_cache.h"
+
+#include "coupling/vdb_file.h"
+#include "fluid/parallel.h"
+#include "fluid/vdb_grids.h"
+
+namespace spume::coupling {
+namespace {
+
+/// Distance [m] to the box of the grid, > 0 inside: what psi is when only the walls are there.
+fluid::DenseField<float> boxDistance(const fluid::GridSpec& grid) {
+  fluid::DenseField<float> psi(grid.cells);
+  fluid::forEachCell(grid.cells, [&](int i, int j, int k) {
+    const Eigen::Vector3d centre = grid.cellCentre(i, j, k);
+    psi(i, j, k) = static_cast<float>((centre - grid.origin).cwiseMin(grid.upper() - centre).minCoeff());
+  });
+  return psi;
+}
+
+}  // namespace
+
+void writeLiquidFrame(const std::string& path, const fluid::LiquidState& liquid,
+                      const fluid::SolidBoundary& solids, const FrameStamp& stamp,
+                      const LiquidCacheOptions& options) {
+  openvdb::initialize();
+  openvdb::GridPtrVec grids{fluid::surfaceGrid(liquid.grid, liquid.phi),
+                            fluid::velocityGrid(liquid, options.staggeredVelocity)};
+  if (options.solid) grids.push_back(fluid::solidGrid(liquid.grid, solids.psi));
+  for (const auto& grid : grids) stampGrid(*grid, stamp);
+  writeVdb(path, {grids.begin(), grids.end()});
+}
+
+LiquidFrame readLiquidFrame(const std::string& path) {
+  const openvdb::GridPtrVec grids = readVdb(path);
+  const auto surface = findGrid<openvdb::FloatGrid>(grids, "surface");
+  const auto velocity = findGrid<openvdb::Vec3SGrid>(grids, "vel");
+  const auto solid = findGrid<openvdb::FloatGrid>(grids, "solid");
+  if (!surface || !velocity)
+    throw SceneError(path + ": holds no liquid: the grids surface and vel are needed");
+  LiquidFrame frame;
+  try {
+    frame.stamp = stampOf(*surface);
+    frame.liquid.grid = fluid::gridSpecOf(*surface);
+    frame.liquid.time = frame.stamp.time;
+    frame.liquid.phi = fluid::phiFrom(*surface);
+    frame.liquid.velocity = fluid::velocityFrom(*velocity);
+    frame.psi = solid ? fluid::psiFrom(*solid) : boxDistance(frame.liquid.grid);
+    frame.hasSolid = solid != nullptr;
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(path + ": was not written by this program: " + error.what());
+  }
+  return frame;
+}
+
+}  // namespace spume::coupling

@@ -1,0 +1,56 @@
+#include "coupling/run_folder.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "coupling/atomic_file.h"
+#include "coupling/scene_toml.h"
+
+namespace spume::coupling {
+namespace {
+
+constexpr const char* kFolders[] = {"liquid", "bubbles", "preview", "checkpoint"};
+constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv",
+                                  "run.json",  "log.txt",    "scene.toml"};
+
+std::string numbered(const std::string& stem, int frame, const char* suffix) {
+  char number[16];
+  std::snprintf(number, sizeof number, ".%04d", frame);
+  return stem + number + suffix;
+}
+
+/// Whether a file in `folder` is one that a run writes there: liquid.0001.vdb in liquid, and so on.
+bool isOurs(const std::filesystem::path& file, const std::string& folder) {
+  return file.filename().string().rfind(folder + ".", 0) == 0;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::string root) : root_(std::move(root)) {
+  for (const char* folder : kFolders) createFolder(root_ + "/" + folder);
+}
+
+std::string RunFolder::liquid(int frame) const { return numbered(root_ + "/liquid/liquid", frame, ".vdb"); }
+std::string RunFolder::bubblesVdb(int frame) const {
+  return numbered(root_ + "/bubbles/bubbles", frame, ".vdb");
+}
+std::string RunFolder::bubblesPly(int frame) const {
+  return numbered(root_ + "/bubbles/bubbles", frame, ".ply");
+}
+std::string RunFolder::preview(int frame) const {
+  return numbered(root_ + "/preview/preview", frame, ".png");
+}
+
+void RunFolder::writeScene(const Scene& scene) const {
+  replaceFile(this->scene(), coupling::writeScene(scene));
+}
+
+void RunFolder::clear() const {
+  std::error_code ignored;
+  for (const std::string folder : kFolders)
+    for (const auto& entry : std::filesystem::directory_iterator(root_ + "/" + folder, ignored))
+      if (isOurs(entry.path(), folder)) std::filesystem::remove(entry.path(), ignored);
+  for (const char* file : kFiles) std::filesystem::remove(root_ + "/" + file, ignored);
+}
+
+}  // namespace spume::coupling

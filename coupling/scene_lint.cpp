@@ -1,0 +1,131 @@
+#include "coupling/scene_lint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "coupling/scene_builder.h"
+#include "coupling/scene_volumes.h"
+#include "coupling/shapes.h"
+
+namespace spume::coupling {
+namespace {
+
+constexpr double kWallCells = 1;            // thinnest solid that cannot leak [dx]
+constexpr double kNozzleCells = 2;          // least radius of a round jet [dx]
+constexpr double kLargeBubbleCells = 1;     // radius above which a bubble spans several cells [dx]
+constexpr double kBubblesPerBlock = 0.125;  // gas of a typical bubble over the volume of a reservoir block
+constexpr double kGentleImpact = 0.2;       // below this even landing drops and soft jets entrain [m/s]
+constexpr double kDryShare = 1e-4;          // smallest share of air in the domain that is worth running
+
+/// "solid 'slab'", or "solid 0" for an object without a name.
+std::string labelOf(const std::string& table, const std::string& name, std::size_t item) {
+  return name.empty() ? table + " " + std::to_string(item) : table + " '" + name + "'";
+}
+
+class Linter {
+ public:
+  explicit Linter(const Scene& scene) : scene_(scene), dx_(scene.dx()) {}
+
+  std::vector<Finding> lint() {
+    lintSolids();
+    lintInflows();
+    lintBubbles();
+    lintSteps();
+    lintLiquid();
+    std::stable_sort(findings_.begin(), findings_.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    return std::move(findings_);
+  }
+
+ private:
+  template <typename... Parts>
+  void add(Severity severity, const std::string& object, const Parts&... parts) {
+    std::ostringstream message;
+    message.precision(3);
+    (message << ... << parts);
+    findings_.push_back({severity, object, message.str()});
+  }
+
+  void lintSolids() {
+    for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
+      const double wall = thickness(scene_.solids[i].shape);
+      if (wall < kWallCells * dx_)
+        add(Severity::warning, labelOf("solid", scene_.solids[i].name, i), "is ", wall,
+            " m thin, under one cell of ", dx_, " m: liquid may leak through; use a resolution of at least ",
+            std::ceil(scene_.domain.size.maxCoeff() / wall));
+    }
+  }
+
+  void lintInflows() {
+    for (std::size_t i = 0; i < scene_.inflows.size(); ++i) {
+      const InflowSpec& inflow = scene_.inflows[i];
+      const std::string object = labelOf("inflow", inflow.name, i);
+      if (inflow.radius < kNozzleCells * dx_)
+        add(Severity::warning, object, "has a radius of ", inflow.radius / dx_,
+            " cells: the jet will be square; 2 or more are round");
+      const double length = inflow.speed.largest() * scene_.time.minDt;
+      const double allowed = scene_.liquid.cfl * scene_.time.maxSubSteps * dx_;
+      if (length > allowed)
+        add(Severity::warning, object, "moves ", length / dx_, " cells in the shortest step of ",
+            scene_.time.minDt, " s, more than liquid.cfl times time.max_substeps = ", allowed / dx_,
+            ": the liquid will take more sub-steps; lower time.min_step");
+      if (inflow.start >= scene_.time.frames / scene_.time.fps)
+        add(Severity::note, object, "opens at ", inflow.start, " s, after the last frame");
+    }
+  }
+
+  void lintBubbles() {
+    const EntrainmentSpec& births = scene_.coupling.entrainment;
+    double largest = births.enabled ? births.maxRadius : 0;
+    for (const foam::NewBubble& bubble : scene_.bubbles) largest = std::max(largest, bubble.radius);
+    if (largest > kLargeBubbleCells * dx_)
+      add(Severity::warning, "bubbles", "reach a radius of ", largest / dx_,
+          " cells: the liquid changes across them, yet is sampled at their centre; use smaller bubbles or a "
+          "lower "
+          "resolution");
+    const double typical = 4 * std::numbers::pi / 3 * std::pow(births.medianRadius, 3);
+    if (births.enabled && typical > kBubblesPerBlock * std::pow(births.blockSize, 3))
+      add(Severity::note, "coupling.entrainment.block_size", births.blockSize,
+          " m is small for bubbles of radius ", births.medianRadius, " m: gas waits long for a whole bubble");
+    if (births.enabled && births.onset < kGentleImpact)
+      add(Severity::note, "coupling.entrainment.onset", births.onset, " m/s: below ", kGentleImpact,
+          " m/s even landing drops and soft jets make bubbles");
+  }
+
+  void lintSteps() {
+    const double frame = 1 / scene_.time.fps;
+    if (scene_.time.minDt > frame)
+      add(Severity::note, "time.min_step", scene_.time.minDt, " s is longer than a frame of ", frame,
+          " s: frames end steps, so steps are as long as frames");
+  }
+
+  void lintLiquid() {
+    const double share = initialWetShare(scene_);
+    if (scene_.liquidBodies.empty() && scene_.inflows.empty())
+      add(Severity::warning, "scene", "has no liquid: neither [[liquid_body]] nor [[inflow]]");
+    if (share > 1 - kDryShare)
+      add(Severity::warning, "domain", "is full of liquid: there is no surface for bubbles to gather at");
+    const double end = scene_.time.frames / scene_.time.fps;
+    const double room = (1 - share) * scene_.domain.size.prod();
+    const bool closed =
+        std::all_of(scene_.domain.closed.begin(), scene_.domain.closed.end(), [](bool c) { return c; });
+    if (pouredUntil(scene_, end) > room)
+      add(Severity::warning, "inflow", "pours ", pouredUntil(scene_, end), " m^3 into ", room,
+          " m^3 of air: ", closed ? "the closed domain will be over-full" : "it will run over");
+    if (closed && !scene_.inflows.empty())
+      add(Severity::warning, "domain.walls",
+          "are all closed while liquid is poured in: the air cannot leave");
+  }
+
+  const Scene& scene_;
+  double dx_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> lintScene(const Scene& scene) { return Linter(scene).lint(); }
+
+}  // namespace spume::coupling

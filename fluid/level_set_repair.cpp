@@ -1,0 +1,98 @@
+#include "fluid/level_set_repair.h"
+
+#include <openvdb/math/Stencils.h>
+#include <openvdb/tree/LeafManager.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace spume::fluid {
+namespace {
+
+using Stencil = openvdb::math::WenoStencil<openvdb::FloatGrid>;
+using openvdb::Coord;
+
+constexpr float kLeastAllowed = 0.5f, kMostAllowed = 1.5f;  // squared gradient: OpenVDB's limits
+constexpr float kLeastWanted = 0.6f, kMostWanted = 1.4f;    // with room for what the neighbours do next
+constexpr int kTries = 20;  // a voxel moves by at most kTries / kTriesPerVoxel
+constexpr int kTriesPerVoxel = 20;
+constexpr int kPasses = 12;  // mending one voxel may break its neighbour; 3 is usual
+
+bool offends(Stencil& stencil) {
+  if (!stencil.zeroCrossing()) return false;
+  const float gradient = stencil.normSqGrad();
+  return !(gradient >= kLeastAllowed && gradient <= kMostAllowed);
+}
+
+/// Coordinates of the offending voxels in the order of the tree.
+std::vector<Coord> offendersOf(const openvdb::FloatGrid& surface) {
+  openvdb::tree::LeafManager<const openvdb::FloatTree> leaves(surface.tree());
+  std::vector<std::vector<Coord>> found(leaves.leafCount());
+  leaves.foreach ([&](const auto& leaf, std::size_t n) {
+    Stencil stencil(surface);
+    for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel) {
+      stencil.moveTo(voxel);
+      if (offends(stencil)) found[n].push_back(voxel.getCoord());
+    }
+  });
+  std::vector<Coord> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// The voxels of a surface that is being repaired, with the stencil round one of them.
+class Repair {
+ public:
+  explicit Repair(openvdb::FloatGrid& surface)
+      : stencil_(surface),
+        accessor_(surface.getAccessor()),
+        dx_(static_cast<float>(surface.voxelSize().x())) {}
+
+  /// Moves a voxel to the nearest value that suits its neighbours, of the same sign if there is one.
+  void mend(const Coord& voxel) {
+    stencil_.moveTo(voxel);
+    if (!offends(stencil_)) return;  // a neighbour's change has mended it
+    const float own = accessor_.getValue(voxel);
+    accessor_.setValueOnly(voxel, suitableValue(voxel, own).value_or(own));
+  }
+
+ private:
+  std::optional<float> suitableValue(const Coord& voxel, float own) {
+    std::optional<float> otherSign;
+    for (int n = 1; n <= kTries; ++n) {
+      const float change = dx_ * static_cast<float>(n) / kTriesPerVoxel;
+      for (const float value :
+           {own < 0 ? own + change : own - change, own < 0 ? own - change : own + change}) {
+        if (!suits(voxel, value)) continue;
+        if ((value < 0) == (own < 0)) return value;
+        if (!otherSign) otherSign = value;
+      }
+    }
+    return otherSign;
+  }
+  bool suits(const Coord& voxel, float value) {
+    accessor_.setValueOnly(voxel, value);
+    stencil_.moveTo(voxel);
+    const float gradient = stencil_.normSqGrad();
+    return gradient >= kLeastWanted && gradient <= kMostWanted;
+  }
+
+  Stencil stencil_;
+  openvdb::FloatGrid::Accessor accessor_;
+  float dx_;
+};
+
+}  // namespace
+
+std::size_t repairLevelSet(openvdb::FloatGrid& surface) {
+  std::vector<Coord> offenders = offendersOf(surface);
+  Repair repair(surface);
+  for (int pass = 0; pass < kPasses && !offenders.empty(); ++pass) {
+    for (const Coord& voxel : offenders) repair.mend(voxel);
+    offenders = offendersOf(surface);
+  }
+  return offenders.size();
+}
+
+}  // namespace spume::fluid

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <random>
+
+#include "coupling/atomic_file.h"
+#include "coupling/bubble_cache.h"
+#include "coupling/liquid_cache.h"
+
+namespace spume::coupling {
+namespace {
+
+constexpr FrameStamp kStamp{17, 0.5666, 30};
+constexpr double kVoxel = 2.5e-3;
+
+std::string fileIn(const std::string& name) { return testing::TempDir() + name; }
+
+foam::BubbleStore someBubbles(int count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  foam::BubbleStore bubbles;
+  for (int n = 0; n < count; ++n) {
+    bubbles.add({{0.16 * unit(random), 0.16 * unit(random), 0.16 * unit(random)},
+                 {unit(random), -unit(random), 0},
+                 1e-3 * (0.5 + unit(random)),
+                 static_cast<foam::BubbleClass>(n % 3)});
+    bubbles.age.back() = unit(random);
+    bubbles.wetness.back() = unit(random);
+  }
+  std::vector<std::uint8_t> gone(count, 0);  // so that ids have gaps
+  for (int n = 0; n < count; n += 5) gone[n] = 1;
+  bubbles.remove(gone);
+  return bubbles;
+}
+
+void expectSameBubbles(const foam::BubbleStore& read, const foam::BubbleStore& written, double placeError) {
+  ASSERT_EQ(read.id, written.id);
+  EXPECT_EQ(read.type, written.type);
+  for (std::size_t n = 0; n < read.size(); ++n) {
+    EXPECT_LE((read.position[n] - written.position[n]).cwiseAbs().maxCoeff(), placeError);
+    EXPECT_EQ(read.velocity[n].cast<float>(), written.velocity[n].cast<float>());
+    EXPECT_EQ(static_cast<float>(read.radius[n]), static_cast<float>(written.radius[n]));
+    EXPECT_EQ(static_cast<float>(read.gas[n]), static_cast<float>(written.gas[n]));
+    EXPECT_EQ(static_cast<float>(read.age[n]), static_cast<float>(written.age[n]));
+    EXPECT_EQ(static_cast<float>(read.wetness[n]), static_cast<float>(written.wetness[n]));
+  }
+}
+
+void expectSameStamp(const FrameStamp& stamp) {
+  EXPECT_EQ(stamp.frame, kStamp.frame);
+  EXPECT_EQ(stamp.time, kStamp.time);
+  EXPECT_EQ(stamp.fps, kStamp.fps);
+}
+
+TEST(BubbleCache, VdbPointsReadBackByIdToFloatPrecision) {
+  constexpr double kOffsetError =
+      0.5 * kVoxel * 6e-8;  // half a float ulp of an offset of at most half a voxel
+  const foam::BubbleStore bubbles = someBubbles(1000);
+  const std::string path = fileIn("bubbles.0017.vdb");
+  writeBubblesVdb(path, bubbles, kStamp, kVoxel);
+  const BubbleFrame frame = readBubblesVdb(path);
+  expectSameBubbles(frame.bubbles, bubbles, kOffsetError);
+  expectSameStamp(frame.stamp);
+  std::remove(path.c_str());
+}
+
+TEST(BubbleCache, PlyReadsBackByIdToFloatPrecision) {
+  constexpr double kFloatError = 0.16 * 6e-8;  // half an ulp of a place in a box of 0.16 m
+  const foam::BubbleStore bubbles = someBubbles(1000);
+  const std::string path = fileIn("bubbles.0017.ply");
+  writeBubblesPly(path, bubbles, kStamp);
+  const BubbleFrame frame = readBubblesPly(path);
+  expectSameBubbles(frame.bubbles, bubbles, kFloatError);
+  expectSameStamp(frame.stamp);
+  std::remove(path.c_str());
+}
+
+TEST(BubbleCache, NoBubblesMakeFilesToo) {
+  const std::string vdb = fileIn("none.vdb"), ply = fileIn("none.ply");
+  writeBubblesVdb(vdb, {}, kStamp, kVoxel);
+  writeBubblesPly(ply, {}, kStamp);
+  EXPECT_EQ(readBubblesVdb(vdb).bubbles.size(), 0u);
+  EXPECT_EQ(readBubblesPly(ply).bubbles.size(), 0u);
+  std::remove(vdb.c_str());
+  std::remove(ply.c_str());
+}
+
+TEST(BubbleCache, CutOffPlyIsRefusedWithItsPath) {
+  const std::string path = fileIn("cut.ply");
+  writeBubblesPly(path, someBubbles(10), kStamp);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  try {
+    readBubblesPly(path);
+    FAIL() << "a cut file was read";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+  }
+  std::remove(path.c_str());
+}
+
+fluid::LiquidState pool() {
+  fluid::LiquidState liquid;
+  liquid.grid = {{16, 12, 10}, kVoxel, {0, 0, 0}};
+  liquid.phi = fluid::DenseField<float>(liquid.grid.cells);
+  liquid.velocity = fluid::MacVelocity(liquid.grid.cells, 0.25f);
+  for (int i = 0; i < 16; ++i)
+    for (int j = 0; j < 12; ++j)
+      for (int k = 0; k < 10; ++k)
+        liquid.phi(i, j, k) = static_cast<float>(liquid.grid.cellCentre(i, j, k).y() - 5.3 * kVoxel);
+  return liquid;
+}
+
+TEST(LiquidCache, FrameReadsBack) {
+  const fluid::LiquidState liquid = pool();
+  fluid::SolidBoundary solids;
+  solids.psi = fluid::DenseField<float>(liquid.grid.cells, 0.125f);
+  const std::string path = fileIn("liquid.0017.vdb");
+  writeLiquidFrame(path, liquid, solids, kStamp, {true, true});
+  const LiquidFrame frame = readLiquidFrame(path);
+  expectSameStamp(frame.stamp);
+  EXPECT_TRUE(frame.hasSolid);
+  EXPECT_EQ(frame.liquid.grid.cells, liquid.grid.cells);
+  EXPECT_EQ(frame.psi(3, 4, 5), 0.125f);
+  EXPECT_EQ(frame.liquid.phi(8, 5, 5), liquid.phi(8, 5, 5));
+  EXPECT_EQ(frame.liquid.velocity[1](8, 5, 5), 0.25f);
+  std::remove(path.c_str());
+}
+
+TEST(LiquidCache, WithoutSolidPsiIsTheDistanceToTheBox) {
+  const std::string path = fileIn("liquid_only.vdb");
+  writeLiquidFrame(path, pool(), {}, kStamp, {false, false});
+  const LiquidFrame frame = readLiquidFrame(path);
+  EXPECT_FALSE(frame.hasSolid);
+  EXPECT_FLOAT_EQ(frame.psi(0, 5, 5), 0.5f * static_cast<float>(kVoxel));
+  EXPECT_FLOAT_EQ(frame.psi(8, 5, 5), 4.5f * static_cast<float>(kVoxel));
+  std::remove(path.c_str());
+}
+
+TEST(LiquidCache, OtherFilesAreRefusedWithTheirPath) {
+  const std::string path = fileIn("no.vdb");
+  replaceFile(path, "this is no VDB file");
+  EXPECT_THROW(readLiquidFrame(path), FileError);
+  EXPECT_THROW(readLiquidFrame("/no/such.vdb"), FileError);
+  writeBubblesVdb(path, someBubbles(3), kStamp, kVoxel);
+  EXPECT_THROW(readLiquidFrame(path), SceneError);
+  std::remove(path.c_str());
+}
+
+}  // namespace
+}  // namespace spume::coupling

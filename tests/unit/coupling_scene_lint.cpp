@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "coupling/scene_lint.h"
+#include "coupling/scene_toml.h"
+#include "coupling/scene_volumes.h"
+
+namespace spume::coupling {
+namespace {
+
+Scene pouring() { return readScene(SPUME_SOURCE_DIR "/data/scenes/pouring.toml"); }
+
+bool mentions(const std::vector<Finding>& findings, const std::string& object, const std::string& words) {
+  for (const Finding& finding : findings)
+    if (finding.object == object && finding.message.find(words) != std::string::npos) return true;
+  return false;
+}
+
+TEST(SceneLint, ShippedPouringHasNoWarning) {
+  for (const Finding& finding : lintScene(pouring()))
+    EXPECT_NE(finding.severity, Severity::warning) << finding.object << " " << finding.message;
+}
+
+TEST(SceneLint, ThinSolidIsNamedWithTheResolutionItNeeds) {
+  Scene scene = pouring();
+  scene.solids.push_back(
+      {"slab", {ShapeKind::box, {0, 0.1, 0}, {0.16, 0.102, 0.16}, {0, 0, 0}, {0, 1, 0}, 0, 0}});
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'slab'", "at least 80"));  // 0.16 m / 2 mm
+}
+
+TEST(SceneLint, LargeBubblesThinJetsAndFastJetsAreFound) {
+  Scene scene = pouring();
+  scene.coupling.entrainment.maxRadius = 0.005;
+  EXPECT_TRUE(mentions(lintScene(scene), "bubbles", "2 cells"));
+  scene = pouring();
+  scene.inflows[0].radius = 0.003;
+  EXPECT_TRUE(mentions(lintScene(scene), "inflow 'jet'", "1.2 cells"));
+  scene = pouring();
+  scene.inflows[0].speed = 20;
+  EXPECT_TRUE(mentions(lintScene(scene), "inflow 'jet'", "40 cells"));  // 20 m/s x 5 ms / 2.5 mm
+}
+
+TEST(SceneLint, OverfullAndEmptyDomainsAreFound) {
+  Scene scene = pouring();
+  scene.inflows[0].stop = 1e9;
+  scene.time.frames = 3000;
+  EXPECT_TRUE(mentions(lintScene(scene), "inflow", "run over"));
+  scene.inflows.clear();
+  scene.liquidBodies.clear();
+  EXPECT_TRUE(mentions(lintScene(scene), "scene", "no liquid"));
+}
+
+TEST(SceneVolumes, PouredVolumeIsTheIntegralOfTheFlux) {
+  Scene scene = pouring();
+  scene.inflows[0].speed.keys = {{1, 0}, {3, 1}};
+  const double area = std::numbers::pi * 0.01 * 0.01;
+  constexpr double kMidpointError = 1e-6;  // relative, of a thousand midpoints of a piecewise linear speed
+  EXPECT_NEAR(pouredUntil(scene, 10), area * 1.5,
+              kMidpointError * area);  // a ramp of 2 s, then 0.5 s at 1 m/s
+  EXPECT_EQ(pouredUntil(scene, 0), 0);
+}
+
+TEST(SceneVolumes, WetShareOfAQuarterFullBoxIsAQuarter) {
+  EXPECT_EQ(initialWetShare(pouring()), 0.25);  // 4 cm of 16 cm: eight of 32 layers of points
+}
+
+TEST(CostEstimate, GrowsWithTheScene) {
+  const Scene scene = pouring();
+  Scene finer = scene, longer = scene;
+  finer.domain.resolution = 128;
+  longer.time.frames *= 2;
+  const CostEstimate cost = estimateCost(scene), fine = estimateCost(finer), longRun = estimateCost(longer);
+  EXPECT_EQ(cost.cells, 64 * 64 * 64);
+  EXPECT_EQ(fine.cells, 8 * cost.cells);
+  EXPECT_GT(fine.secondsPerFrame, 8 * cost.secondsPerFrame);  // more cells, and more sub-steps
+  EXPECT_GT(fine.memoryBytes, cost.memoryBytes);
+  EXPECT_NEAR(longRun.diskBytes / cost.diskBytes, 2, 0.01);  // the pour has stopped by then
+}
+
+}  // namespace
+}  // namespace spume::coupling
