@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "coupling/atomic_file.h"
+#include "coupling/bubble_cache.h"
 
 namespace spume::coupling {
 namespace {
@@ -70,6 +72,17 @@ void checkIds(const BubbleTable& bubbles, const PlaceOf& placeOf) {
                    placeOf(first, "id") + "; every bubble needs its own");
 }
 
+/// A cache of a run holds float numbers and no line to point at.
+BubbleTable readVdbTable(const std::string& path) {
+  foam::BubbleStore bubbles = readBubblesVdb(path).bubbles;
+  BubbleTable table{std::move(bubbles.id), std::move(bubbles.position), std::move(bubbles.radius),
+                    std::move(bubbles.velocity)};
+  checkBubbles(table, [&](std::size_t row, std::string_view) {
+    return path + ": point with id " + std::to_string(table.id[row]);
+  });
+  return table;
+}
+
 std::string endingOf(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -99,6 +112,7 @@ BubbleTable readBubbleTable(const std::string& path) {
   const std::string ending = endingOf(path);
   if (ending == ".csv") return parseBubbleCsv(path, readFile(path));
   if (ending == ".ply") return parseBubblePly(path, readFile(path));
+  if (ending == ".vdb") return readVdbTable(path);
   throw SceneError(path + ": expected a .csv, .ply or .vdb file of bubbles");
 }
 

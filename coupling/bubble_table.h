@@ -22,10 +22,10 @@ struct BubbleTable {
   void resize(std::size_t count);
 };
 
-/// Reads .csv, .ply or .vdb, told apart by the ending of the name. Throws FileError (missing or unreadable)
-/// or SceneError with file:line:column (binary files: the vertex), the value, its range and a remedy: a
-/// column missing or given twice, a short or long row, no number, a radius that is not finite and positive,
-/// an id used twice, an unknown ending.
+/// Reads .csv, .ply or .vdb (points as runs cache them), told apart by the ending of the name. Throws
+/// FileError (missing or unreadable) or SceneError with file:line:column (binary files: the vertex), the
+/// value, its range and a remedy: a column missing or given twice, a short or long row, no number, a radius
+/// that is not finite and positive, an id used twice, an unknown ending.
 BubbleTable readBubbleTable(const std::string& path);
 
 /// Comma-separated text with a header that names at least id, x, y, z and r, in any order; vx, vy and vz are

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
+#include <limits>
 #include <string>
 
+#include "coupling/bubble_cache.h"
 #include "coupling/bubble_table.h"
 
 namespace spume::coupling {
@@ -114,6 +116,22 @@ TEST(BubbleTable, PlyWithoutVerticesIsEmpty) {
       "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
       "property float z\nproperty float radius\nend_header\n";
   EXPECT_EQ(parseBubblePly("b.ply", header).size(), 0u);
+}
+
+/// Both caches of a run are read back; they hold float numbers, which those given here are exactly.
+TEST(BubbleTable, CachesOfARunReadBack) {
+  foam::BubbleStore bubbles;
+  bubbles.add({{.5, .25, -.125}, {1, 2, 3}, .0625});
+  bubbles.add({{1.5, 0, 2}, {0, -1, 0}, .5});
+  bubbles.id = {5, 8};
+  const std::string base = testing::TempDir() + "bubble_table_" + std::to_string(getpid());
+  writeBubblesVdb(base + ".vdb", bubbles, {}, 1);
+  writeBubblesPly(base + ".ply", bubbles, {});
+  for (const std::string ending : {".vdb", ".ply"}) {
+    SCOPED_TRACE(ending);
+    expectSame(readBubbleTable(base + ending), {bubbles.id, bubbles.position, {.0625, .5}, bubbles.velocity});
+    std::remove((base + ending).c_str());
+  }
 }
 
 }  // namespace
