@@ -1,5 +1,6 @@
 #include "coupling/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -18,6 +19,9 @@ namespace {
 /// A step that keeps failing at a sixteenth of its length will not be saved by a smaller one.
 constexpr int kMaxHalvings = 4;
 
+/// Steps that fill an interval up to round-off must not be given one more.
+constexpr double kRoundOff = 1e-9;
+
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -26,6 +30,18 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
+
+/// Adds the times of `spent` to those of the same stages in `now`.
+void addStageTimes(const std::vector<foam::FoamStageTime>& spent, std::vector<foam::FoamStageTime>& now) {
+  for (const foam::FoamStageTime& t : spent) {
+    const auto same = [&](const foam::FoamStageTime& other) { return other.stage == t.stage; };
+    const auto found = std::find_if(now.begin(), now.end(), same);
+    if (found == now.end())
+      now.push_back(t);
+    else
+      found->seconds += t.seconds;
+  }
+}
 
 Event birthEvent(const Birth& birth, std::uint64_t id, double gas, double time) {
   Event event{Event::Kind::birth, time, id};
@@ -74,12 +90,13 @@ struct Simulation::Internals {
   void stepLiquid(double dt, StepReport& report);
   void entrain(StepReport& report);
   void stepFoam(double dt, StepReport& report);
+  void takeFoamEvents(foam::FoamStepReport& happened, StepReport& report);
   void removeLeavers(StepReport& report);
   void book(double dt, StepReport& report);
 
   double frameEnd() const { return (frame + 1) / scene.time.fps; }
   double nextDt(double remaining) const {
-    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), foamDt, remaining);
+    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), remaining);
   }
   VdbLiquidSampler sampler() const { return {liquid.state(), liquid.solids()}; }
   fluid::ImmersedGas immersedGas() const;
@@ -121,18 +138,34 @@ void Simulation::Internals::entrain(StepReport& report) {
   report.secondsEntrainment = watch.seconds();
 }
 
+/// The foam may ask for shorter steps than the liquid; it then sub-cycles on the liquid's end-of-step fields.
 void Simulation::Internals::stepFoam(double dt, StepReport& report) {
   const Stopwatch watch;
   const VdbLiquidSampler fields = sampler();
-  report.foam = foam.step(bubbles, fields, dt);
-  gas.burst += report.foam.gasBurst;
-  for (const foam::FoamEvent& happened : report.foam.events) {
-    report.events.push_back(foamEvent(happened, report.time));
-    if (happened.kind == foam::FoamEventKind::burst) ++report.bursts;
+  const double wanted = std::max(foamDt, scene.time.minDt);
+  const int subSteps = std::max(1, static_cast<int>(std::ceil(dt / wanted - kRoundOff)));
+  double burst = 0;
+  for (int n = 0; n < subSteps; ++n) {
+    foam::FoamStepReport now = foam.step(bubbles, fields, dt / subSteps);
+    takeFoamEvents(now, report);
+    burst += now.gasBurst;
+    now.solverIterations += report.foam.solverIterations;
+    addStageTimes(report.foam.stages, now.stages);
+    report.foam = std::move(now);
   }
-  report.foam.events.clear();
+  report.foam.gasBurst = burst;
+  report.foamSubSteps = subSteps;
+  gas.burst += burst;
   foamDt = foam.stableDt(bubbles);
   report.secondsFoam = watch.seconds();
+}
+
+void Simulation::Internals::takeFoamEvents(foam::FoamStepReport& happened, StepReport& report) {
+  for (const foam::FoamEvent& event : happened.events) {
+    report.events.push_back(foamEvent(event, report.time));
+    if (event.kind == foam::FoamEventKind::burst) ++report.bursts;
+  }
+  happened.events.clear();
 }
 
 void Simulation::Internals::removeLeavers(StepReport& report) {

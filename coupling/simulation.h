@@ -31,6 +31,7 @@ struct Event {
 struct StepReport {
   int step = 0;
   double time = 0, dt = 0;  ///< end of the step [s]
+  int foamSubSteps = 0;     ///< steps the foam split dt into
   int halvings = 0;         ///< times dt was halved because a module failed
   fluid::LiquidStepReport liquid;
   foam::FoamStepReport foam;

@@ -16,7 +16,7 @@ struct FluidParams {
 
   LevelSetTransport levelSetTransport = LevelSetTransport::semiLagrangian;   ///< markers carry the accuracy
   VelocityAdvection velocityAdvection = VelocityAdvection::macCormack;       ///< second order, clamped
-  double cfl = 3;                        ///< largest max|u| dt/dx of one sub-step, 0.2 to 10
+  double cfl = 4;                        ///< largest max|u| dt/dx of one sub-step, 0.2 to 10
 
   int markersPerCell = 16;               ///< per sign, 8 to 64; 16 gives the same births as 64 at a third of the time
   double markerBand = 3;                 ///< half-width of the seeded band [cells], 2 to 5 (Enright 2002)
@@ -29,7 +29,7 @@ struct FluidParams {
   double pressureTolerance = 1e-6;       ///< relative residual of the pressure solve, 1e-12 to 1e-2
   int pressureIterations = 200;          ///< limit of the pressure solve, 1 to 10000
   bool volumeControl = true;             ///< hold every connected body at its booked volume (Kim et al. 2007)
-  double volumeControlTime = 0.05;       ///< relaxation time of the volume error [s], 0.001 to 10
+  double volumeControlTime = 0.02;       ///< relaxation time of the volume error [s], 0.001 to 10
 
   std::uint64_t seed = 1;                ///< of every random number the liquid draws
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "fluid/level_set.h"
@@ -15,32 +16,41 @@ namespace {
 /// extrapolation, and the correcting pass reads the forward values one step further out.
 constexpr float kReach = 2;
 /// Points traced together: positions stay in the first-level cache and the loops over them vectorise.
-constexpr int kChunk = 64;
+/// One register of the widest kind, so that a run that only grazes the liquid drags few dry faces along.
+constexpr int kChunk = 16;
 
 /// Positions of a run of points along z [cells].
 struct Points {
-  alignas(64) std::array<float, kChunk> x, y, z;
+  alignas(64) float x[kChunk], y[kChunk], z[kChunk];
 };
 
-float inside(float value, float limit) { return std::min(std::max(value, 0.0f), limit); }
+float inside(float value, float limit) {
+  const float low = value > 0 ? value : 0;
+  return low < limit ? low : limit;
+}
+
+/// One stage of a path: out = from + time u(at), kept inside the grid. Plain columns, so that it vectorises.
+void moveAlong(const MacView& wind, const Eigen::Vector3f& top, float time, int count, const Points& from,
+               const Points& at, Points& out) {
+  const float topX = top.x(), topY = top.y(), topZ = top.z();
+  const float *ax = at.x, *ay = at.y, *az = at.z, *fx = from.x, *fy = from.y, *fz = from.z;
+  float* __restrict ox = out.x, * __restrict oy = out.y, * __restrict oz = out.z;
+#pragma GCC ivdep
+  for (int n = 0; n < count; ++n) {
+    const Velocity3f u = sampleVelocity(wind, ax[n], ay[n], az[n]);
+    ox[n] = inside(fx[n] + time * u.x, topX);
+    oy[n] = inside(fy[n] + time * u.y, topY);
+    oz[n] = inside(fz[n] + time * u.z, topZ);
+  }
+}
 
 /// Moves `count` points along the wind for a time of `cellsPerSpeed` dx (negative: back) by the midpoint
 /// rule.
 void trace(const MacView& wind, const Eigen::Vector3f& top, float cellsPerSpeed, int count, Points& p) {
-  Points mid;
-  const float half = 0.5f * cellsPerSpeed;
-  for (int n = 0; n < count; ++n) {
-    const Velocity3f u = sampleVelocity(wind, p.x[n], p.y[n], p.z[n]);
-    mid.x[n] = inside(p.x[n] + half * u.x, top.x());
-    mid.y[n] = inside(p.y[n] + half * u.y, top.y());
-    mid.z[n] = inside(p.z[n] + half * u.z, top.z());
-  }
-  for (int n = 0; n < count; ++n) {
-    const Velocity3f u = sampleVelocity(wind, mid.x[n], mid.y[n], mid.z[n]);
-    p.x[n] = inside(p.x[n] + cellsPerSpeed * u.x, top.x());
-    p.y[n] = inside(p.y[n] + cellsPerSpeed * u.y, top.y());
-    p.z[n] = inside(p.z[n] + cellsPerSpeed * u.z, top.z());
-  }
+  Points middle, end;
+  moveAlong(wind, top, 0.5f * cellsPerSpeed, count, p, p, middle);
+  moveAlong(wind, top, cellsPerSpeed, count, p, middle, end);
+  p = end;
 }
 
 /// Calls body(i, j, k, count) for runs of at most kChunk faces across `axis` whose row comes within `limit`
@@ -60,9 +70,15 @@ void forEachWetRun(int axis, const DenseField<float>& phi, const DenseField<floa
   });
 }
 
+/// Index-unit coordinates of a component are cell units less this.
+std::array<float, 3> faceShift(int axis) {
+  return {axis == 0 ? 0.0f : 0.5f, axis == 1 ? 0.0f : 0.5f, axis == 2 ? 0.0f : 0.5f};
+}
+
 /// The centres of a run of faces across `axis`.
 void faceCentres(int axis, int i, int j, int k, int count, Points& p) {
-  const std::array<float, 3> shift{axis == 0 ? 0.0f : 0.5f, axis == 1 ? 0.0f : 0.5f, axis == 2 ? 0.0f : 0.5f};
+  const std::array<float, 3> shift = faceShift(axis);
+#pragma GCC ivdep
   for (int n = 0; n < count; ++n) {
     p.x[n] = static_cast<float>(i) + shift[0];
     p.y[n] = static_cast<float>(j) + shift[1];
@@ -89,11 +105,21 @@ RangedValue sampleRanged(const FieldView& f, float x, float y, float z) {
   return {lerp(ab, cd, b.fx), low, high};
 }
 
-/// Index-unit coordinates of a component are cell units less this.
-Eigen::Vector3f faceShift(int axis) {
-  Eigen::Vector3f shift = Eigen::Vector3f::Constant(0.5f);
-  shift[axis] = 0;
-  return shift;
+/// Largest magnitude of any component [m/s].
+float largestValue(const MacVelocity& velocity) {
+  const auto larger = [](float a, float b) { return std::max(a, b); };
+  float largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const DenseField<float>& u = velocity[axis];
+    const auto slab = [&](int i) {
+      float value = 0;
+      for (int j = 0; j < u.size().y(); ++j)
+        for (int k = 0; k < u.size().z(); ++k) value = std::max(value, std::abs(u(i, j, k)));
+      return value;
+    };
+    largest = std::max(largest, reduceSlabs(u.size().x(), 0.0f, slab, larger));
+  }
+  return largest;
 }
 
 }  // namespace
@@ -105,15 +131,19 @@ void VelocityAdvector::forwardPass(int axis, const DenseField<float>& phi, const
                                    float cellsPerSpeed, float limit) {
   const MacView wind(velocity);
   const FieldView source(velocity[axis]);
-  const Eigen::Vector3f top = grid_.cells.cast<float>(), shift = faceShift(axis);
+  const Eigen::Vector3f top = grid_.cells.cast<float>();
+  const std::array<float, 3> shift = faceShift(axis);
   forward_[axis] = velocity[axis];
   forEachWetRun(axis, phi, velocity[axis], limit, [&](int i, int j, int k, int count) {
     Points p;
     faceCentres(axis, i, j, k, count, p);
     trace(wind, top, -cellsPerSpeed, count, p);
+    const float *x = p.x, *y = p.y, *z = p.z;
+    const float shiftX = shift[0], shiftY = shift[1], shiftZ = shift[2];
     float *value = &forward_[axis](i, j, k), *low = &low_[axis](i, j, k), *high = &high_[axis](i, j, k);
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const RangedValue v = sampleRanged(source, p.x[n] - shift.x(), p.y[n] - shift.y(), p.z[n] - shift.z());
+      const RangedValue v = sampleRanged(source, x[n] - shiftX, y[n] - shiftY, z[n] - shiftZ);
       value[n] = v.value;
       low[n] = v.low;
       high[n] = v.high;
@@ -125,7 +155,8 @@ void VelocityAdvector::correctingPass(int axis, const DenseField<float>& phi, co
                                       float cellsPerSpeed, float limit) {
   const MacView wind(velocity);
   const FieldView forward(forward_[axis]);
-  const Eigen::Vector3f top = grid_.cells.cast<float>(), shift = faceShift(axis);
+  const Eigen::Vector3f top = grid_.cells.cast<float>();
+  const std::array<float, 3> shift = faceShift(axis);
   next_[axis] = velocity[axis];
   forEachWetRun(axis, phi, velocity[axis], limit, [&](int i, int j, int k, int count) {
     Points p;
@@ -133,9 +164,12 @@ void VelocityAdvector::correctingPass(int axis, const DenseField<float>& phi, co
     trace(wind, top, cellsPerSpeed, count, p);
     const float *start = &velocity[axis](i, j, k), *value = &forward_[axis](i, j, k);
     const float *low = &low_[axis](i, j, k), *high = &high_[axis](i, j, k);
+    const float *x = p.x, *y = p.y, *z = p.z;
+    const float shiftX = shift[0], shiftY = shift[1], shiftZ = shift[2];
     float* out = &next_[axis](i, j, k);
+#pragma GCC ivdep
     for (int n = 0; n < count; ++n) {
-      const float returned = sampleIndex(forward, p.x[n] - shift.x(), p.y[n] - shift.y(), p.z[n] - shift.z());
+      const float returned = sampleIndex(forward, x[n] - shiftX, y[n] - shiftY, z[n] - shiftZ);
       const float corrected = value[n] + 0.5f * (start[n] - returned);
       out[n] = std::min(std::max(corrected, low[n]), high[n]);
     }
@@ -147,8 +181,9 @@ void VelocityAdvector::advance(VelocityAdvection scheme, const DenseField<float>
   const float dx = static_cast<float>(grid_.dx);
   const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
   const bool corrected = scheme == VelocityAdvection::macCormack;
-  // phi is clamped at the band: a forward limit beyond it takes in every face, as the paths may be that long.
-  const float forwardLimit = (corrected ? kLevelSetBand + 1 : kReach) * dx;
+  // The correcting pass reads forward values as far out as a path is long, and one stencil more.
+  const float path = corrected ? std::ceil(largestValue(velocity) * cellsPerSpeed) + 1 : 0;
+  const float forwardLimit = (kReach + path) * dx;
   for (int axis = 0; axis < 3; ++axis) forwardPass(axis, phi, velocity, cellsPerSpeed, forwardLimit);
   if (corrected) {
     fillGhostLayers(forward_);
