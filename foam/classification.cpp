@@ -94,9 +94,18 @@ void weighSurface(const Surroundings& around, const FoamTopology& topology, cons
   });
 }
 
+BubbleClass reclassify(BubbleClass before, double phi, double radius, double surfaceWeight) {
+  const BubbleClass now = classify(phi, radius, surfaceWeight);
+  const bool stillDeep = phi < -(1 - kClassMargin) * radius;
+  if (before == BubbleClass::liquid && now != before && stillDeep) return before;
+  if (before == BubbleClass::air && now == BubbleClass::surface && surfaceWeight < kWeightToFloat)
+    return before;
+  return now;
+}
+
 void relabel(const Eigen::VectorXd& phi, BubbleStore& bubbles) {
   for (std::size_t i = 0; i < bubbles.size(); ++i)
-    bubbles.type[i] = classify(phi[i], bubbles.radius[i], bubbles.surfaceWeight[i]);
+    bubbles.type[i] = reclassify(bubbles.type[i], phi[i], bubbles.radius[i], bubbles.surfaceWeight[i]);
 }
 
 }  // namespace spume::foam

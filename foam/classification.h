@@ -15,13 +15,20 @@ inline constexpr double kFullWetShare = 0.1;
 /// > r.
 BubbleClass classify(double phi, double radius, double surfaceWeight);
 
+/// How far above -r a liquid bubble must rise to be called surface, in radii, and the weight at which an air
+/// bubble is called surface: a bubble at the border of two classes keeps its label while waves rock it.
+inline constexpr double kClassMargin = 0.25, kWeightToFloat = 0.5;
+
+/// The same with a memory: leaves a class only by a margin. Labels alone: no force depends on them.
+BubbleClass reclassify(BubbleClass before, double phi, double radius, double surfaceWeight);
+
 /// Sets `surfaceWeight` of every bubble from the geometry of the step's start, 1 for a liquid one,
 /// w = min(1, uncovered wet area / (0.1 x 4 pi r^2)) afloat, 0 aloft [-]. The surface is taken flat across a
 /// bubble. O(pairs), and 512 sample points x neighbours for the few bubbles whose covering decides.
 void weighSurface(const Surroundings& around, const FoamTopology& topology, const Neighbours& neighbours,
                   BubbleStore& bubbles);
 
-/// Sets `type` from the distances `phi` [m] to the surface and the weights.
+/// Sets `type` from the distances `phi` [m] to the surface, the weights and the labels so far.
 void relabel(const Eigen::VectorXd& phi, BubbleStore& bubbles);
 
 }  // namespace spume::foam

@@ -28,6 +28,17 @@ TEST(Classification, LabelsFollowPhi) {
   EXPECT_EQ(classify(1.1e-3, 1e-3, 1), BubbleClass::air);
 }
 
+TEST(Classification, LabelIsKeptWithinAMargin) {
+  EXPECT_EQ(reclassify(BubbleClass::liquid, -0.9e-3, 1e-3, 1), BubbleClass::liquid);
+  EXPECT_EQ(reclassify(BubbleClass::liquid, -0.7e-3, 1e-3, 1), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::surface, -0.9e-3, 1e-3, 1), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::surface, -1.1e-3, 1e-3, 1), BubbleClass::liquid);
+  EXPECT_EQ(reclassify(BubbleClass::air, 0.5e-3, 1e-3, 0.3), BubbleClass::air);
+  EXPECT_EQ(reclassify(BubbleClass::air, 0.5e-3, 1e-3, 0.7), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::surface, 0.5e-3, 1e-3, 0.3), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::surface, 0.5e-3, 1e-3, 0), BubbleClass::air);
+}
+
 TEST(Classification, ALoneBubbleIsHeldByItsWetCap) {
   BubbleStore bubbles;
   for (const double height : {-3.0, -0.5, 0.0, 0.7, 0.9, 0.99, 1.5})
