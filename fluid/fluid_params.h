@@ -29,7 +29,9 @@ struct FluidParams {
   double pressureTolerance = 1e-6;       ///< relative residual of the pressure solve, 1e-12 to 1e-2
   int pressureIterations = 200;          ///< limit of the pressure solve, 1 to 10000
   bool volumeControl = true;             ///< hold every connected body at its booked volume (Kim et al. 2007)
-  double volumeControlTime = 0.02;       ///< relaxation time of the volume error [s], 0.001 to 10
+  /// Relaxation time of the volume error [s], 0.001 to 10. A pour at 32^3 loses up to half its flux to the level
+  /// set's errors; what stands at any time is this rate times this time.
+  double volumeControlTime = 0.02;
 
   std::uint64_t seed = 1;                ///< of every random number the liquid draws
 

@@ -28,9 +28,18 @@ constexpr double kStampBand = 6;
 constexpr int kWaves = 6;
 constexpr std::uint64_t kWavePurpose = 0x696e666c6f77;
 
+/// Face centre moved upstream, or on the edge of the grid into it: a nozzle that reaches the edge is fed
+/// through it.
+Eigen::Vector3d probe(const GridSpec& grid, const Inflow& inflow, int axis, const Eigen::Vector3i& c) {
+  const double shift = kUpstream * grid.dx;
+  const Eigen::Vector3d centre = grid.faceCentre(axis, c.x(), c.y(), c.z());
+  if (c[axis] == 0) return centre + shift * Eigen::Vector3d::Unit(axis);
+  if (c[axis] == grid.cells[axis]) return centre - shift * Eigen::Vector3d::Unit(axis);
+  return centre - shift * inflow.velocity.normalized();
+}
+
 double faceCoverage(const GridSpec& grid, const Inflow& inflow, int axis, const Eigen::Vector3i& c) {
-  const Eigen::Vector3d centre =
-      grid.faceCentre(axis, c.x(), c.y(), c.z()) - kUpstream * grid.dx * inflow.velocity.normalized();
+  const Eigen::Vector3d centre = probe(grid, inflow, axis, c);
   const double middle = inflow.sdf(centre);
   if (std::abs(middle) > 1.5 * grid.dx) return middle < 0 ? 1 : 0;
   const Eigen::Vector3d u = grid.dx * Eigen::Vector3d::Unit((axis + 1) % 3);

@@ -16,6 +16,7 @@
 #include "fluid/marker_correction.h"
 #include "fluid/marker_escape.h"
 #include "fluid/marker_particles.h"
+#include "fluid/open_boundary.h"
 #include "fluid/pocket_markers.h"
 #include "fluid/projection.h"
 #include "fluid/reinitialize.h"
@@ -141,6 +142,7 @@ void LiquidSolver::Internals::moveSolids(double dt) {
 void LiquidSolver::Internals::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
   levelSetAdvection.advance(params.levelSetTransport, state.velocity, dt, state.phi);
+  admitAir(state.grid, solids, state.velocity, dt, state.phi);
   extension.apply(state.phi);
   advectMarkers(markerScene(), state.velocity, dt, state.positive);
   advectMarkers(markerScene(), state.velocity, dt, state.negative);
