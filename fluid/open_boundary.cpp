@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fluid/level_set.h"
+
 namespace spume::fluid {
 namespace {
 
@@ -9,7 +11,8 @@ namespace {
 void admitThrough(const GridSpec& grid, const Eigen::Vector3i& first, const Eigen::Vector3i& inwards,
                   double front, DenseField<float>& phi) {
   Eigen::Vector3i c = first;
-  for (double depth = 0.5 * grid.dx; depth < front && phi.contains(c.x(), c.y(), c.z()); depth += grid.dx) {
+  const double reach = front + kLevelSetBand * grid.dx;  // behind the front phi is the distance to it
+  for (double depth = 0.5 * grid.dx; depth < reach && phi.contains(c.x(), c.y(), c.z()); depth += grid.dx) {
     phi(c) = std::max(phi(c), static_cast<float>(front - depth));
     c += inwards;
   }
