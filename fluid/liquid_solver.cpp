@@ -51,7 +51,7 @@ struct LiquidSolver::Internals {
   VelocityAdvector velocityAdvector;
   VelocityExtrapolator extrapolator;
   MarkerSorter sorter;
-  MarkerSeeder positiveSeeder, negativeSeeder;
+  MarkerSeeder seeder;
   MarkerCorrection correction;
   MarkerEscape escape;
   AirPockets pockets;
@@ -95,8 +95,7 @@ LiquidSolver::Internals::Internals(FluidParams p, LiquidSetup s)
       velocityAdvector(setup.grid),
       extrapolator(setup.grid),
       sorter(setup.grid),
-      positiveSeeder(setup.grid),
-      negativeSeeder(setup.grid),
+      seeder(setup.grid),
       escape(setup.grid),
       volumeControl(setup.grid, params),
       projection(setup.grid, params),
@@ -167,8 +166,7 @@ void LiquidSolver::Internals::reseed() {
   adjustRadii(scene, state.phi, MarkerSign::positive, state.positive);
   adjustRadii(scene, state.phi, MarkerSign::negative, state.negative);
   if (state.subSteps % params.reseedInterval != 0) return;
-  positiveSeeder.reseed(scene, state.phi, MarkerSign::positive, state.subSteps, state.positive);
-  negativeSeeder.reseed(scene, state.phi, MarkerSign::negative, state.subSteps, state.negative);
+  seeder.reseed(scene, state.phi, state.subSteps, state.positive, state.negative);
 }
 
 void LiquidSolver::Internals::fillPockets() {

@@ -19,6 +19,10 @@ constexpr int kAttractions = 3;
 /// Cells whose centre lies deeper than this behind a wall get no markers [cells].
 constexpr float kWallDepth = 0.5f;
 
+/// A cell may hold this many times markersPerCell before some go: markers of one cell differ in age, and the
+/// young ones, which go first, were drawn from a younger phi.
+constexpr float kSurplus = 1.5f;
+
 /// Part 0..1 of a cell on the marker's side, from the distance of its centre to that side [cells].
 float sideFraction(float depth) { return std::clamp(0.5f + depth, 0.0f, 1.0f); }
 
@@ -46,12 +50,14 @@ struct MarkerSeeder::Side {
   /// Markers cell (i, j, k) may keep: near the surface as many as a full cell, whatever part of it phi sees
   /// on their side, because where phi has lost a film the markers are what restores it.
   int allowed(int i, int j, int k) const {
-    return toCells * phi(i, j, k) > band ? 0 : scene.params.markersPerCell;
+    return toCells * phi(i, j, k) > band ? 0 : static_cast<int>(kSurplus * scene.params.markersPerCell);
   }
   /// Markers cell (i, j, k) should have.
   int wanted(int i, int j, int k) const {
     if (scene.solids.psi(i, j, k) < -kWallDepth * scene.grid.dx) return 0;
-    return static_cast<int>(std::lround(allowed(i, j, k) * sideFraction(toCells * phi(i, j, k))));
+    const float depth = toCells * phi(i, j, k);
+    if (depth > band) return 0;
+    return static_cast<int>(std::lround(scene.params.markersPerCell * sideFraction(depth)));
   }
   bool attract(CounterRandom& random, float& x, float& y, float& z) const;
 };
@@ -92,7 +98,7 @@ void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
           ++present;
         }
       }
-      missing_[cell] = std::max(0, side.wanted(i, j, k) - present);
+      missing_[cell] = doubt_[cell] ? 0 : std::max(0, side.wanted(i, j, k) - present);
     }
   });
 }
@@ -126,13 +132,32 @@ void MarkerSeeder::addMissing(const Side& side, std::int64_t subStep, MarkerSet&
   for (const MarkerSet& slab : slabs_) markers.append(slab);
 }
 
-void MarkerSeeder::reseed(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
-                          std::int64_t subStep, MarkerSet& markers) {
-  const Side side(scene, phi, sign);
-  sorter_.sort(markers);
-  removeSurplus(side, markers);
-  addMissing(side, subStep, markers);
-  sorter_.sort(markers);
+void MarkerSeeder::markDoubt(const Eigen::Vector3i& cells, const MarkerSet& markers) {
+  for (std::size_t n = 0; n < markers.size(); ++n) {
+    if (!markers.escaped[n] || std::isnan(markers.x[n])) continue;
+    const Eigen::Vector3i at(static_cast<int>(markers.x[n]), static_cast<int>(markers.y[n]),
+                             static_cast<int>(markers.z[n]));
+    const Eigen::Vector3i low = (at - Eigen::Vector3i::Ones()).cwiseMax(0);
+    const Eigen::Vector3i high = (at + Eigen::Vector3i::Ones()).cwiseMin(cells - Eigen::Vector3i::Ones());
+    for (int i = low.x(); i <= high.x(); ++i)
+      for (int j = low.y(); j <= high.y(); ++j)
+        for (int k = low.z(); k <= high.z(); ++k) doubt_[(i * cells.y() + j) * cells.z() + k] = 1;
+  }
+}
+
+void MarkerSeeder::reseed(const MarkerScene& scene, const DenseField<float>& phi, std::int64_t subStep,
+                          MarkerSet& positive, MarkerSet& negative) {
+  doubt_.assign(scene.grid.cells.prod(), 0);
+  markDoubt(scene.grid.cells, positive);
+  markDoubt(scene.grid.cells, negative);
+  for (const MarkerSign sign : {MarkerSign::positive, MarkerSign::negative}) {
+    MarkerSet& markers = sign == MarkerSign::positive ? positive : negative;
+    const Side side(scene, phi, sign);
+    sorter_.sort(markers);
+    removeSurplus(side, markers);
+    addMissing(side, subStep, markers);
+    sorter_.sort(markers);
+  }
 }
 
 }  // namespace spume::fluid

@@ -74,7 +74,7 @@ struct Study {
   LevelSetAdvection advection;
   Reinitializer reinitializer;
   MarkerSorter sorter;
-  MarkerSeeder positiveSeeder, negativeSeeder;
+  MarkerSeeder seeder;
   MarkerCorrection correction;
 
   Study(const TransportCase& s, const TransportOptions& o, const GridSpec& grid)
@@ -85,8 +85,7 @@ struct Study {
         advection(grid),
         reinitializer(grid),
         sorter(grid),
-        positiveSeeder(grid),
-        negativeSeeder(grid) {
+        seeder(grid) {
     state.grid = grid;
     state.velocity = MacVelocity(grid.cells);
     walls.closed.fill(false);
@@ -102,8 +101,7 @@ struct Study {
 };
 
 void Study::reseed() {
-  positiveSeeder.reseed(markerScene(), state.phi, MarkerSign::positive, state.subSteps, state.positive);
-  negativeSeeder.reseed(markerScene(), state.phi, MarkerSign::negative, state.subSteps, state.negative);
+  seeder.reseed(markerScene(), state.phi, state.subSteps, state.positive, state.negative);
 }
 
 void Study::correct() {

@@ -26,9 +26,7 @@ struct Pool {
 
   MarkerScene scene() const { return {grid, params, walls, solids}; }
   void seed(std::int64_t subStep = 0) {
-    MarkerSeeder seeder(grid);
-    seeder.reseed(scene(), phi, MarkerSign::positive, subStep, positive);
-    seeder.reseed(scene(), phi, MarkerSign::negative, subStep, negative);
+    MarkerSeeder(grid).reseed(scene(), phi, subStep, positive, negative);
   }
 };
 
