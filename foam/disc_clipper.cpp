@@ -1,5 +1,6 @@
 #include "foam/disc_clipper.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace spume::foam {
@@ -7,17 +8,9 @@ namespace spume::foam {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFar =
-    std::numeric_limits<double>::max() / 4;  ///< stands for infinity where products are formed
+constexpr double kFar = 1e100;  ///< stands for infinity where products are formed
 
 constexpr double kAngleRoundOff = 1e-15;  ///< of one edge's angle, a few ulp of pi
-
-/// Calls body(k) for all k below `count` rounded up to whole blocks.
-template <typename Body>
-inline void forEachLane(std::size_t count, const Body& body) {
-  for (std::size_t block = 0; block < count; block += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) body(block + lane);
-}
 
 /// Two unit vectors that make a right-handed frame with the unit vector (x, y, z), continuous but at z = 0.
 struct PlaneFrame {
@@ -29,6 +22,12 @@ struct PlaneFrame {
     vx = b, vy = sign + y * y * a, vz = -y;
   }
 };
+
+LaneMask firstLanes() {
+  LaneMask lanes;
+  for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = static_cast<std::int64_t>(k);
+  return lanes;
+}
 
 }  // namespace
 
@@ -48,7 +47,7 @@ void CuttingPlanes::resize(std::size_t planes) {
 void DiscClipper::Lines::resize(std::size_t lines) {
   const std::size_t padded = paddedToLanes(lines);
   if (ux.size() >= padded) return;
-  for (auto* column : {&ux, &uy, &offset, &shift, &t1, &t2}) column->resize(padded);
+  for (auto* column : {&ux, &uy, &offset, &shift, &slope2, &t1, &t2}) column->resize(padded);
 }
 
 FilmShape DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls) {
@@ -65,115 +64,142 @@ FilmShape DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const
 bool DiscClipper::findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2) {
   const std::size_t padded = paddedToLanes(planes.count);
   if (px_.size() < padded)
-    for (auto* column : {&px_, &py_, &toPlane_, &alongNormal_}) column->resize(padded);
-  lines_.resize(planes.count);
+    for (auto* column : {&px_, &py_, &toPlane_, &alongNormal_, &slope2_}) column->resize(padded);
   const double nx = planes.nx[face], ny = planes.ny[face], nz = planes.nz[face], height = planes.height[face];
   const PlaneFrame frame(nx, ny, nz);
   frame_ = {
       height * Eigen::Vector3d(nx, ny, nz), {frame.ux, frame.uy, frame.uz}, {frame.vx, frame.vy, frame.vz}};
-  const double *kx = planes.nx.data(), *ky = planes.ny.data(), *kz = planes.nz.data();
-  const double *kh = planes.height.data(), *kShift = planes.heightShift.data();
-  double* __restrict px = px_.data(), * __restrict py = py_.data();
-  double* __restrict toPlane = toPlane_.data(), * __restrict along = alongNormal_.data();
-  forEachLane(planes.count, [&](std::size_t k) {
-    px[k] = kx[k] * frame.ux + ky[k] * frame.uy + kz[k] * frame.uz;
-    py[k] = kx[k] * frame.vx + ky[k] * frame.vy + kz[k] * frame.vz;
-    along[k] = kx[k] * nx + ky[k] * ny + kz[k] * nz;
-    toPlane[k] = kh[k] - height * along[k];
-  });
+  for (std::size_t k = 0; k < padded; k += kLanes) {
+    const Lanes kx = loadLanes(&planes.nx[k]), ky = loadLanes(&planes.ny[k]), kz = loadLanes(&planes.nz[k]);
+    const Lanes px = kx * frame.ux + ky * frame.uy + kz * frame.uz;
+    const Lanes py = kx * frame.vx + ky * frame.vy + kz * frame.vz;
+    const Lanes along = kx * nx + ky * ny + kz * nz;
+    storeLanes(&px_[k], px), storeLanes(&py_[k], py), storeLanes(&alongNormal_[k], along);
+    storeLanes(&toPlane_[k], loadLanes(&planes.height[k]) - height * along);
+    storeLanes(&slope2_[k], px * px + py * py);
+  }
+  toPlane_[face] = 1, slope2_[face] = 0;  // does not cut itself
+  if (!pickLines(planes.count, discRadius2)) return false;
+  const double shift = planes.heightShift[face];
+  lines_.resize(lines_.plane.size());
+  for (std::size_t m = 0; m < lines_.count; ++m) {
+    const std::size_t k = lines_.plane[m];
+    lines_.ux[m] = px_[k], lines_.uy[m] = py_[k], lines_.offset[m] = toPlane_[k],
+    lines_.slope2[m] = slope2_[k];
+    lines_.shift[m] = planes.heightShift[k] - alongNormal_[k] * shift;
+  }
+  return true;
+}
+
+/// Lists the planes whose lines lie within the disc, at |D| < rho; false if one at D <= -rho takes all of the
+/// disc.
+bool DiscClipper::pickLines(std::size_t planes, double discRadius2) {
+  if (lines_.plane.size() < planes) lines_.plane.resize(planes);
   std::size_t m = 0;
   bool gone = false;
-  for (std::size_t k = 0; k < planes.count; ++k) {
-    if (k == face) continue;
-    const double slope2 = px[k] * px[k] + py[k] * py[k];
-    const bool cuts = toPlane[k] * toPlane[k] < discRadius2 * slope2;
-    gone |= !cuts && toPlane[k] < 0;
-    lines_.ux[m] = px[k], lines_.uy[m] = py[k], lines_.offset[m] = toPlane[k];
-    lines_.shift[m] = kShift[k] - along[k] * planes.heightShift[face];
+  for (std::size_t k = 0; k < planes; ++k) {
+    const bool cuts = toPlane_[k] * toPlane_[k] < discRadius2 * slope2_[k];
+    gone |= !cuts & (toPlane_[k] < 0);
+    lines_.plane[m] = static_cast<std::uint32_t>(k);
     m += cuts;
   }
   lines_.count = m;
-  for (std::size_t k = m; k < paddedToLanes(m); ++k)
-    lines_.ux[k] = lines_.uy[k] = lines_.offset[k] = lines_.shift[k] = 0;
   return !gone;
 }
 
 /// Cuts each line by the disc and all other lines; false if lines cut the disc and nothing is left.
 bool DiscClipper::clipLines(double discRadius2) {
-  const std::size_t m = lines_.count;
-  if (m == 0) return true;
-  double* __restrict ux = lines_.ux.data(), * __restrict uy = lines_.uy.data();
-  double* __restrict offset = lines_.offset.data(), * __restrict shift = lines_.shift.data();
-  double* __restrict t1 = lines_.t1.data(), * __restrict t2 = lines_.t2.data();
-  forEachLane(m, [&](std::size_t k) {
-    const double slope2 = ux[k] * ux[k] + uy[k] * uy[k];
-    const double inverse = 1 / std::sqrt(slope2 > 0 ? slope2 : 1);
-    ux[k] *= inverse, uy[k] *= inverse, offset[k] *= inverse, shift[k] *= inverse;
-    const double half2 = discRadius2 - offset[k] * offset[k];
-    const double half = slope2 > 0 && half2 > 0 ? std::sqrt(half2) : 0;
-    t1[k] = -half, t2[k] = half;
-  });
-  for (std::size_t l = 0; l < m; ++l) {
-    const double lx = ux[l], ly = uy[l], ld = offset[l], t1Own = t1[l], t2Own = t2[l];
-    forEachLane(m, [&](std::size_t k) {
-      const double slope = ly * ux[k] - lx * uy[k];
-      const double gap = ld - offset[k] * (lx * ux[k] + ly * uy[k]);
-      const double t = gap / slope;
-      const double upper = slope > 0 ? t : slope == 0 && gap < 0 ? -kFar : kFar;
-      const double lower = slope < 0 ? t : -kFar;
-      t2[k] = t2[k] < upper ? t2[k] : upper;
-      t1[k] = t1[k] > lower ? t1[k] : lower;
-    });
-    t1[l] = t1Own, t2[l] = t2Own;
-  }
+  if (lines_.count == 0) return true;
+  scaleLines(discRadius2);
   bool anyLeft = false;
-  for (std::size_t k = 0; k < m; ++k) anyLeft |= t2[k] > t1[k];
+  for (std::size_t k = 0; k < lines_.count; k += kLanes) {
+    const Lanes ux = loadLanes(&lines_.ux[k]), uy = loadLanes(&lines_.uy[k]),
+                offset = loadLanes(&lines_.offset[k]);
+    Lanes t1 = loadLanes(&lines_.t1[k]), t2 = loadLanes(&lines_.t2[k]);
+    const Lanes none = Lanes{} + kFar;
+    LaneMask toSelf = firstLanes() + static_cast<std::int64_t>(k);
+    for (std::size_t l = 0; l < lines_.count; ++l, toSelf -= 1) {
+      const double lx = lines_.ux[l], ly = lines_.uy[l], ld = lines_.offset[l];
+      const Lanes slope = toSelf == 0 ? Lanes{} : ly * ux - lx * uy;
+      const Lanes gap = toSelf == 0 ? Lanes{} : ld - offset * (lx * ux + ly * uy);
+      const Lanes t = gap / slope;
+      const Lanes parallel = ((slope == 0) & (gap < 0)) ? -none : none;
+      const Lanes upper = slope > 0 ? t : parallel, lower = slope < 0 ? t : -none;
+      t2 = t2 < upper ? t2 : upper;
+      t1 = t1 > lower ? t1 : lower;
+    }
+    storeLanes(&lines_.t1[k], t1), storeLanes(&lines_.t2[k], t2);
+  }
+  for (std::size_t k = 0; k < lines_.count; ++k) anyLeft |= lines_.t2[k] > lines_.t1[k];
   return anyLeft;
 }
+
+/// Makes the normals unit vectors and lets each line end at the rim. Padded lines are empty.
+void DiscClipper::scaleLines(double discRadius2) {
+  const std::size_t padded = paddedToLanes(lines_.count);
+  for (std::size_t k = lines_.count; k < padded; ++k) {
+    lines_.ux[k] = lines_.uy[k] = lines_.shift[k] = 0;
+    lines_.offset[k] = kFar, lines_.slope2[k] = 1;
+  }
+  for (std::size_t k = 0; k < padded; k += kLanes) {
+    const Lanes inverse = 1 / squareRoot(loadLanes(&lines_.slope2[k]));
+    for (auto* column : {&lines_.ux, &lines_.uy, &lines_.offset, &lines_.shift})
+      storeLanes(&(*column)[k], loadLanes(&(*column)[k]) * inverse);
+    const Lanes offset = loadLanes(&lines_.offset[k]), half2 = discRadius2 - offset * offset;
+    const Lanes half = squareRoot(half2 > 0 ? half2 : Lanes{});
+    storeLanes(&lines_.t1[k], -half), storeLanes(&lines_.t2[k], half);
+  }
+}
+
+namespace {
+
+/// Sums over edges, a lane each, for one centre `height` from the disc's plane.
+struct SolidSum {
+  double height2, height;
+  Lanes sum = {};
+
+  explicit SolidSum(double signedHeight)
+      : height2(signedHeight * signedHeight), height(std::abs(signedHeight)) {}
+
+  /// Adds the triangle from the disc's centre to an edge; `angle` is what the edge spans there, `side` = |D|.
+  void add(const Lanes& sign, const Lanes& side, const Lanes& t1, const Lanes& t2, const Lanes& angle) {
+    const Lanes side2 = side * side, product = t1 * t2;
+    const Lanes r1 = squareRoot(height2 + side2 + t1 * t1), r2 = squareRoot(height2 + side2 + t2 * t2);
+    const Lanes turn = height * side * (t2 * r1 - t1 * r2);  // >= 0 but for round-off, as t/R grows with t
+    sum += angle - sign * upperAngle<Lanes>(turn > 0 ? turn : Lanes{}, side2 * r1 * r2 + height2 * product);
+  }
+};
+
+}  // namespace
 
 /// Sums area and solid angles over edges and rim. With the disc's centre c as corner, an edge at distance D
 /// from t1 to t2 adds a triangle and takes its angle from the rim; the rim adds sectors of the disc and of
 /// the cap.
 void DiscClipper::integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                             FilmShape& out) const {
-  const std::size_t m = lines_.count;
-  const double near = std::abs(height), far = std::abs(balls.farHeight);
-  const double near2 = near * near, far2 = far * far;
-  const double *offset = lines_.offset.data(), *shift = lines_.shift.data();
-  const double *t1 = lines_.t1.data(), *t2 = lines_.t2.data();
-  double triangles[kLanes] = {}, angles[kLanes] = {}, shifts[kLanes] = {}, nearSolid[kLanes] = {};
-  double farSolid[kLanes] = {};
-  for (std::size_t block = 0; block < m; block += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t k = block + lane;
-      const bool left = t2[k] > t1[k];
-      const double a = left ? t1[k] : 0, b = left ? t2[k] : 0, d = offset[k];
-      const double sign = d < 0 ? -1 : 1, side = std::abs(d), length = b - a, d2 = d * d, ab = a * b;
-      const double nearA = std::sqrt(near2 + d2 + a * a), nearB = std::sqrt(near2 + d2 + b * b);
-      const double farA = std::sqrt(far2 + d2 + a * a), farB = std::sqrt(far2 + d2 + b * b);
-      const double angle = sign * upperAngle(side * length, d2 + ab);
-      triangles[lane] += d * length;
-      shifts[lane] += shift[k] * length;
-      angles[lane] += angle;
-      // t2 R1 - t1 R2 >= 0, as t/R grows with t.
-      nearSolid[lane] += angle - sign * upperAngle(std::max(0.0, near * side * (b * nearA - a * nearB)),
-                                                   d2 * nearA * nearB + near2 * ab);
-      farSolid[lane] += angle - sign * upperAngle(std::max(0.0, far * side * (b * farA - a * farB)),
-                                                  d2 * farA * farB + far2 * ab);
-    }
-  bool centreInside = true;
-  for (std::size_t k = 0; k < m; ++k) centreInside &= offset[k] >= 0;
-  double triangle = 0, angle = 0, edgeShift = 0, solidNear = 0, solidFar = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    triangle += triangles[lane], angle += angles[lane], edgeShift += shifts[lane];
-    solidNear += nearSolid[lane], solidFar += farSolid[lane];
+  const Lanes zero = {};
+  Lanes triangles = {}, angles = {}, shifts = {}, outside = {};
+  SolidSum near(height), far(balls.farHeight);
+  for (std::size_t k = 0; k < lines_.count; k += kLanes) {
+    const Lanes end1 = loadLanes(&lines_.t1[k]), end2 = loadLanes(&lines_.t2[k]);
+    const auto left = end2 > end1;
+    const Lanes t1 = left ? end1 : zero, t2 = left ? end2 : zero, offset = loadLanes(&lines_.offset[k]);
+    const Lanes sign = offset < 0 ? zero - 1 : zero + 1, length = t2 - t1;
+    const Lanes side = left ? sign * offset : zero;
+    const Lanes angle = sign * upperAngle<Lanes>(side * length, side * side + t1 * t2);
+    triangles += sign * side * length;
+    shifts += loadLanes(&lines_.shift[k]) * length;
+    angles += angle;
+    outside += offset < 0 ? zero + 1 : zero;
+    near.add(sign, side, t1, t2, angle);
+    far.add(sign, side, t1, t2, angle);
   }
-  out.arc = (centreInside ? 2 * kPi : 0) - angle;
-  if (out.arc < kAngleRoundOff * static_cast<double>(m)) out.arc = 0;
-  out.area = (triangle + discRadius2 * out.arc) / 2;
-  out.areaShift = edgeShift + out.arc * (balls.radius * balls.radiusShift - height * heightShift);
-  out.solidNear = solidNear + (1 - near / balls.radius) * out.arc;
-  out.solidFar = solidFar + (1 - far / balls.farRadius) * out.arc;
+  out.arc = (sumOf(outside) > 0 ? 0 : 2 * kPi) - sumOf(angles);
+  if (out.arc < kAngleRoundOff * static_cast<double>(lines_.count)) out.arc = 0;
+  out.area = (sumOf(triangles) + discRadius2 * out.arc) / 2;
+  out.areaShift = sumOf(shifts) + out.arc * (balls.radius * balls.radiusShift - height * heightShift);
+  out.solidNear = sumOf(near.sum) + (1 - near.height / balls.radius) * out.arc;
+  out.solidFar = sumOf(far.sum) + (1 - far.height / balls.farRadius) * out.arc;
 }
 
 Eigen::Vector3d DiscClipper::pointInside() const {

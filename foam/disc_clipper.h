@@ -44,10 +44,12 @@ class DiscClipper {
   /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film.
   struct Lines {
     std::size_t count = 0;
-    std::vector<double> ux, uy;  ///< unit normals in the plane
-    std::vector<double> offset;  ///< D, signed distance from the disc's centre [m]
-    std::vector<double> shift;   ///< what undoing the jitter adds to D [m]
-    std::vector<double> t1, t2;  ///< ends of the edge along the line [m]; t2 > t1 if anything is left
+    std::vector<std::uint32_t> plane;  ///< each comes from
+    std::vector<double> ux, uy;        ///< unit normals in the plane
+    std::vector<double> offset;        ///< D, signed distance from the disc's centre [m]
+    std::vector<double> slope2;        ///< squared sine of the angle between the planes [-]
+    std::vector<double> shift;         ///< what undoing the jitter adds to D [m]
+    std::vector<double> t1, t2;        ///< ends of the edge along the line [m]; t2 > t1 if anything is left
 
     void resize(std::size_t lines);
   };
@@ -58,11 +60,13 @@ class DiscClipper {
   };
 
   bool findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2);
+  bool pickLines(std::size_t planes, double discRadius2);
+  void scaleLines(double discRadius2);
   bool clipLines(double discRadius2);
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                  FilmShape& out) const;
 
-  std::vector<double> px_, py_, toPlane_, alongNormal_;  ///< of the planes, in the disc's frame
+  std::vector<double> px_, py_, toPlane_, alongNormal_, slope2_;  ///< of the planes, in the disc's frame
   Frame frame_;
   Lines lines_;
 };

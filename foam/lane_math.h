@@ -1,31 +1,62 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <numbers>
 
 namespace spume::foam {
 
-/// Loops over geometry run in whole blocks of this many doubles (one AVX-512 register), padded with neutral
-/// elements: every element then goes through the same instructions wherever it stands in its block.
-inline constexpr std::size_t kLanes = 8;
+/// Doubles worked on at once: one register of the instruction set the library is built for.
+#if defined(__AVX__)
+inline constexpr std::size_t kLanes = 4;
+#else
+inline constexpr std::size_t kLanes = 2;
+#endif
+
+/// A block of kLanes doubles with element-wise arithmetic; a comparison gives LaneMask, which ?: takes
+/// element by element. Data comes in whole blocks padded with neutral elements, so every element goes through
+/// the same instructions.
+using Lanes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+using LaneMask [[gnu::vector_size(kLanes * sizeof(double))]] = std::int64_t;
 
 inline constexpr std::size_t paddedToLanes(std::size_t count) {
   return (count + kLanes - 1) / kLanes * kLanes;
 }
 
-/// Angle of the point (x, y), y >= 0, in [0, pi]; 0 at the origin. Without branches, so that loops over it
-/// vectorise; within 2 ulp. Reduces to |z| <= tan(pi/8), where z P(z^2) with P the Chebyshev interpolant of
-/// degree 11 of atan(z)/z is exact to 1.3e-18.
-inline double upperAngle(double y, double x) {
+inline Lanes loadLanes(const double* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+inline void storeLanes(double* to, const Lanes& lanes) { std::memcpy(to, &lanes, sizeof lanes); }
+
+inline Lanes squareRoot(const Lanes& x) {
+  Lanes root;
+  for (std::size_t k = 0; k < kLanes; ++k) root[k] = std::sqrt(x[k]);
+  return root;
+}
+
+inline double sumOf(const Lanes& x) {
+  double sum = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) sum += x[k];
+  return sum;
+}
+
+/// Angle of the point (x, y), y >= 0, in [0, pi]; 0 at the origin. For double or Lanes; within 2 ulp. Reduces
+/// to |z| <= tan(pi/8), where z P(z^2) with P the Chebyshev interpolant of degree 11 of atan(z)/z is exact
+/// to 1.3e-18.
+template <typename Real>
+inline Real upperAngle(const Real& y, const Real& x) {
   constexpr double kTanEighth = 0.41421356237309503, kTiny = 1e-300;
-  const double ax = std::abs(x);
-  const double small = y <= ax ? y : ax, large = y <= ax ? ax : y;
-  const bool reduce = small > kTanEighth * large;
-  const double top = reduce ? small - large : small, bottom = (reduce ? small + large : large) + kTiny;
-  const double z = top / bottom, u = z * z;
-  double p = -0.017805395704537507381;
+  const Real zero = {}, ax = x < 0 ? -x : x;
+  const Real small = y <= ax ? y : ax, large = y <= ax ? ax : y;
+  const auto reduce = small > kTanEighth * large;
+  const Real top = reduce ? small - large : small, bottom = (reduce ? small + large : large) + kTiny;
+  const Real z = top / bottom, u = z * z;
+  Real p = zero - 0.017805395704537507381;
   p = p * u + 0.037965256099576568431;
   p = p * u - 0.050351024039430294125;
   p = p * u + 0.058468782857870010961;
@@ -36,10 +67,10 @@ inline double upperAngle(double y, double x) {
   p = p * u - 0.14285714279250239667;
   p = p * u + 0.19999999999940891408;
   p = p * u - 0.33333333333333121163;
-  p = p * u + 1;
-  double angle = z * p + (reduce ? std::numbers::pi / 4 : 0.0);
-  angle = y <= ax ? angle : std::numbers::pi / 2 - angle;
-  return x < 0 ? std::numbers::pi - angle : angle;
+  p = p * u + 1.0;
+  const Real steep = z * p + (reduce ? zero + std::numbers::pi / 4 : zero);
+  const Real acute = y <= ax ? steep : std::numbers::pi / 2 - steep;
+  return x < 0 ? std::numbers::pi - acute : acute;
 }
 
 }  // namespace spume::foam

@@ -175,7 +175,7 @@ TEST(LaneMath, UpperAngleIsAtan2OfTheUpperHalfPlane) {
                    x = scale * std::cos(angle);
       EXPECT_NEAR(upperAngle(y, x), std::atan2(y, x), kTwoUlp * std::max(1e-3, std::atan2(y, x))) << angle;
     }
-  EXPECT_EQ(upperAngle(0, 0), 0);
+  EXPECT_EQ(upperAngle(0.0, 0.0), 0);
 }
 
 }  // namespace
