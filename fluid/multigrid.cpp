@@ -23,22 +23,21 @@ float halfSum(const DenseField<float>& fine, const Eigen::Vector3i& at,
   return 0.5f * sum;
 }
 
-void relaxRow(const PressureMatrix& m, const ActiveRow& row, int colour, const float* __restrict rhs,
-              float* x) {
-  const auto at = m.excess.index(row.i, row.j, 0);
+/// Gauss-Seidel value of every cell [begin, begin + count) of row (i, j); those of one colour are kept.
+void relaxPiece(const PressureMatrix& m, int i, int j, int begin, int count, int colour,
+                const float* __restrict rhs, float* __restrict x) {
+  const auto at = m.excess.index(i, j, begin);
   const auto si = m.excess.stride(0), sj = m.excess.stride(1);
   const float* __restrict wx = m.weight[0].data() + at;
   const float* __restrict wy = m.weight[1].data() + at;
   const float* __restrict wz = m.weight[2].data() + at;
   const float* __restrict inverse = m.inverseDiagonal.data() + at;
-  const int parity = (row.i + row.j + colour) & 1;
-#pragma GCC ivdep
-  for (int k = row.begin; k < row.end; ++k) {  // both colours are computed, one is kept: this vectorises
-    const float value =
-        inverse[k] * (rhs[k] + wx[k] * x[k - si] + wx[k + si] * x[k + si] + wy[k] * x[k - sj] +
-                      wy[k + sj] * x[k + sj] + wz[k] * x[k - 1] + wz[k + 1] * x[k + 1]);
-    x[k] = (k & 1) == parity ? value : x[k];
-  }
+  alignas(64) float relaxed[2 * kPiece];  // computing both colours and keeping one lets the loops vectorise
+  for (int k = 0; k < count; ++k)
+    relaxed[k] = inverse[k] * (rhs[k] + wx[k] * x[k - si] + wx[k + si] * x[k + si] + wy[k] * x[k - sj] +
+                               wy[k + sj] * x[k + sj] + wz[k] * x[k - 1] + wz[k + 1] * x[k + 1]);
+  const int parity = (i + j + begin + colour) & 1;
+  for (int k = 0; k < count; ++k) x[k] = (k & 1) == parity ? relaxed[k] : x[k];
 }
 
 /// Residual of cells [begin, begin + count) of row (i, j), 0 where there is no unknown.
@@ -122,7 +121,9 @@ void Multigrid::startSmooth(Level& level) {
 
 void Multigrid::smooth(Level& level, int colour) {
   forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
-    relaxRow(level.matrix, row, colour, &level.rhs(row.i, row.j, 0), &level.x(row.i, row.j, 0));
+    for (int k = row.begin; k < row.end; k += 2 * kPiece)
+      relaxPiece(level.matrix, row.i, row.j, k, std::min(2 * kPiece, row.end - k), colour,
+                 &level.rhs(row.i, row.j, k), &level.x(row.i, row.j, k));
   });
 }
 

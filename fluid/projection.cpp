@@ -44,6 +44,29 @@ struct Surface {
   double theta;       // true distance from the cell's centre [dx]
 };
 
+/// The rows of a face field that bound a row of cells: [side] across x and y, and the minus faces across z.
+struct FaceRows {
+  const float* x[2];
+  const float* y[2];
+  const float* z;
+  FaceRows(const MacField<float>& field, int i, int j)
+      : x{&field[0](i, j, 0), &field[0](i + 1, j, 0)},
+        y{&field[1](i, j, 0), &field[1](i, j + 1, 0)},
+        z(&field[2](i, j, 0)) {}
+};
+
+/// What flows out of the cells [begin, end) of a row through their faces, over dx^2 [m/s].
+void outflowOfRow(const SolidBoundary& boundary, const MacVelocity& velocity, const ActiveRow& row,
+                  double* __restrict outflow) {
+  const FaceRows open(boundary.open, row.i, row.j), solid(boundary.velocity, row.i, row.j);
+  const FaceRows u(velocity, row.i, row.j);
+  const auto flow = [](double f, double fluid, double wall) { return f * fluid + (1 - f) * wall; };
+  for (int k = row.begin; k < row.end; ++k)
+    outflow[k] = flow(open.x[1][k], u.x[1][k], solid.x[1][k]) - flow(open.x[0][k], u.x[0][k], solid.x[0][k]) +
+                 flow(open.y[1][k], u.y[1][k], solid.y[1][k]) - flow(open.y[0][k], u.y[0][k], solid.y[0][k]) +
+                 flow(open.z[k + 1], u.z[k + 1], solid.z[k + 1]) - flow(open.z[k], u.z[k], solid.z[k]);
+}
+
 std::string failure(const SolveReport& solve, double tolerance, double dt) {
   char text[160];
   std::snprintf(text, sizeof text,
@@ -73,6 +96,7 @@ struct Projection::Internals {
   const DenseField<float>* phi = nullptr;  // of the call under way
   const SolidBoundary* boundary = nullptr;
   double dt = 0;
+  bool anyAirless = false;
 
   Internals(const GridSpec& g, const FluidParams& p)
       : grid(g),
@@ -108,7 +132,12 @@ struct Projection::Internals {
   void findComponents();
   void assembleMatrix();
   void findLevels();
-  void assembleCell(const Eigen::Vector3i& c, const MacVelocity& velocity, float source);
+  float excessOf(const Eigen::Vector3i& c) const;
+  double surfaceTerm(const Eigen::Vector3i& c) const;
+  void assembleRow(const ActiveRow& row, const MacVelocity& velocity, const DenseField<float>& source);
+  void updateFace(const Eigen::Vector3i& c, int axis, float& velocity, float& gradient);
+  template <typename Body>
+  void forEachUnknown(const Body& body);
   void assembleRightHandSide(const MacVelocity& velocity, const DenseField<float>& source);
   void chooseGravity();
   double centreAirless(DenseField<double>& field);
@@ -116,7 +145,7 @@ struct Projection::Internals {
   double projectedFace(const Eigen::Vector3i& c, int axis, double u) const;
   void updateVelocity(int axis, DenseField<float>& velocity, DenseField<float>& gradient);
   void writePressure();
-  double largestDivergence(const MacVelocity& velocity, const DenseField<float>& source) const;
+  double largestDivergence(const MacVelocity& velocity, const DenseField<float>& source);
 };
 
 Surface Projection::Internals::surfaceBeside(const Eigen::Vector3i& c, int axis, int side) const {
@@ -142,112 +171,140 @@ void Projection::Internals::findComponents() {
   components.assign(count, Component{});
 }
 
+/// Couplings of a wet cell to known pressures.
+float Projection::Internals::excessOf(const Eigen::Vector3i& c) const {
+  float excess = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int side : {-1, 1})
+      if (isSurface(c, a, side)) excess += surfaceBeside(c, a, side).coefficient;
+  return excess;
+}
+
 void Projection::Internals::assembleMatrix() {
   PressureMatrix& matrix = multigrid.finest();
-  forEachCell(grid.cells, [&](int i, int j, int k) {
-    const Eigen::Vector3i c(i, j, k);
-    float excess = 0;
-    for (int a = 0; a < 3; ++a) {
-      const bool joined = component(c) >= 0 && component(c - Eigen::Vector3i::Unit(a)) >= 0;
-      matrix.weight[a](c) = joined ? boundary->open[a](c) : 0;
-      if (component(c) < 0) continue;
-      for (int side : {-1, 1})
-        if (isSurface(c, a, side)) excess += surfaceBeside(c, a, side).coefficient;
+  const auto si = component.stride(0), sj = component.stride(1);
+  forEachRow(grid.cells, [&](int i, int j) {
+    const std::int32_t* wet = &component(i, j, 0);
+    const FaceRows open(boundary->open, i, j);
+    float *wx = &matrix.weight[0](i, j, 0), *wy = &matrix.weight[1](i, j, 0),
+          *wz = &matrix.weight[2](i, j, 0);
+    float* excess = &matrix.excess(i, j, 0);
+    for (int k = 0; k < grid.cells.z(); ++k) {
+      wx[k] = (wet[k] | wet[k - si]) >= 0 ? open.x[0][k] : 0;  // no label has its sign bit set: both are wet
+      wy[k] = (wet[k] | wet[k - sj]) >= 0 ? open.y[0][k] : 0;
+      wz[k] = (wet[k] | wet[k - 1]) >= 0 ? open.z[k] : 0;
+      excess[k] = 0;
     }
-    matrix.excess(c) = excess;
+    for (int k = 0; k < grid.cells.z(); ++k) {
+      const bool inside =
+          (wet[k - si] | wet[k + si] | wet[k - sj] | wet[k + sj] | wet[k - 1] | wet[k + 1]) >= 0;
+      if (wet[k] >= 0 && !inside) excess[k] = excessOf({i, j, k});
+    }
   });
   matrix.finish();
   multigrid.coarsen();
 }
 
-void Projection::Internals::findLevels() {
-  const DenseField<float>& excess = multigrid.finest().excess;
-  std::vector<double> cellSum(components.size(), 0);
+/// Calls body(component, cell) for every unknown, in order.
+template <typename Body>
+void Projection::Internals::forEachUnknown(const Body& body) {
   for (const ActiveRow& row : multigrid.finest().rows)
     for (int k = row.begin; k < row.end; ++k) {
-      const Eigen::Vector3i c(row.i, row.j, k);
-      if (component(c) < 0) continue;
-      Component& body = components[component(c)];
-      ++body.cells;
-      cellSum[component(c)] += gravityAt(c);
-      if (!(excess(c) > 0)) continue;
-      for (int a = 0; a < 3; ++a)
-        for (int side : {-1, 1}) {
-          if (!isSurface(c, a, side)) continue;
-          ++body.surfaces;
-          body.level += gravityAt(c) + side * surfaceBeside(c, a, side).theta * grid.dx * params.gravity[a];
-        }
+      const std::int32_t n = component(row.i, row.j, k);
+      if (n >= 0) body(components[n], Eigen::Vector3i(row.i, row.j, k));
     }
-  for (std::size_t n = 0; n < components.size(); ++n) {
-    Component& body = components[n];
-    body.level =
-        body.surfaces > 0 ? body.level / static_cast<double>(body.surfaces) : cellSum[n] / body.cells;
-  }
 }
 
-void Projection::Internals::assembleCell(const Eigen::Vector3i& c, const MacVelocity& velocity,
-                                         float source) {
+void Projection::Internals::findLevels() {
+  const DenseField<float>& excess = multigrid.finest().excess;
+  forEachUnknown([&](Component& body, const Eigen::Vector3i& c) {
+    if (!(excess(c) > 0)) return;
+    for (int a = 0; a < 3; ++a)
+      for (int side : {-1, 1}) {
+        if (!isSurface(c, a, side)) continue;
+        ++body.surfaces;
+        body.level += gravityAt(c) + side * surfaceBeside(c, a, side).theta * grid.dx * params.gravity[a];
+      }
+  });
+  anyAirless = false;
+  for (Component& body : components) {
+    anyAirless = anyAirless || body.surfaces == 0;
+    if (body.surfaces > 0) body.level /= static_cast<double>(body.surfaces);
+  }
+  if (!anyAirless) return;
+  forEachUnknown([&](Component& body, const Eigen::Vector3i& c) {
+    ++body.cells;
+    if (body.surfaces == 0) body.level += gravityAt(c);
+  });
+  for (Component& body : components)
+    if (body.surfaces == 0) body.level /= static_cast<double>(body.cells);
+}
+
+/// Sum over the surface beside a cell of coefficient times known reduced pressure.
+double Projection::Internals::surfaceTerm(const Eigen::Vector3i& c) const {
   const Component& body = components[component(c)];
-  const bool atSurface = multigrid.finest().excess(c) > 0;
-  double flowIn = source * grid.dx, gravityIn = 0, surface = 0;
+  double sum = 0;
   for (int a = 0; a < 3; ++a)
     for (int side : {-1, 1}) {
-      const Eigen::Vector3i face = side > 0 ? c + Eigen::Vector3i::Unit(a) : c;
-      const double open = boundary->open[a](face);
-      flowIn -= side * (open * velocity[a](face) + (1 - open) * boundary->velocity[a](face));
-      gravityIn -= side * open * dt * params.gravity[a];
-      if (!atSurface || !isSurface(c, a, side)) continue;
+      if (!isSurface(c, a, side)) continue;
       const Surface known = surfaceBeside(c, a, side);
-      surface += known.coefficient * surfaceValue(body, c, a, side, known.theta);
+      sum += known.coefficient * surfaceValue(body, c, a, side, known.theta);
     }
-  rhs(c) = flowIn + surface;
-  plainRhs(c) = flowIn + gravityIn;
+  return sum;
+}
+
+void Projection::Internals::assembleRow(const ActiveRow& row, const MacVelocity& velocity,
+                                        const DenseField<float>& source) {
+  const std::int32_t* wet = &component(row.i, row.j, 0);
+  const float* excess = &multigrid.finest().excess(row.i, row.j, 0);
+  const float* sources = &source(row.i, row.j, 0);
+  const FaceRows open(boundary->open, row.i, row.j);
+  const Eigen::Vector3d fall = dt * params.gravity;
+  double* __restrict lifted = &rhs(row.i, row.j, 0);
+  double* __restrict plain = &plainRhs(row.i, row.j, 0);
+  outflowOfRow(*boundary, velocity, row, lifted);
+  for (int k = row.begin; k < row.end; ++k) {
+    const double inflow = wet[k] >= 0 ? sources[k] * grid.dx - lifted[k] : 0;
+    const double falling = fall.x() * (open.x[1][k] - open.x[0][k]) +
+                           fall.y() * (open.y[1][k] - open.y[0][k]) + fall.z() * (open.z[k + 1] - open.z[k]);
+    lifted[k] = inflow;
+    plain[k] = wet[k] >= 0 ? inflow - falling : 0;
+  }
+  for (int k = row.begin; k < row.end; ++k)
+    if (excess[k] > 0) lifted[k] += surfaceTerm({row.i, row.j, k});
 }
 
 void Projection::Internals::assembleRightHandSide(const MacVelocity& velocity,
                                                   const DenseField<float>& source) {
-  forEachCell(grid.cells, [&](int i, int j, int k) {
-    const Eigen::Vector3i c(i, j, k);
-    if (component(c) >= 0)
-      assembleCell(c, velocity, source(c));
-    else
-      rhs(c) = plainRhs(c) = 0;
-  });
+  forEachActiveRow(multigrid.finest().rows,
+                   [&](const ActiveRow& row) { assembleRow(row, velocity, source); });
 }
 
 /// Decides for each component which form has the smaller right-hand side.
 void Projection::Internals::chooseGravity() {
-  const auto& rows = multigrid.finest().rows;
-  for (const ActiveRow& row : rows)
-    for (int k = row.begin; k < row.end; ++k) {
-      const std::int32_t n = component(row.i, row.j, k);
-      if (n < 0) continue;
-      components[n].lifted += rhs(row.i, row.j, k) * rhs(row.i, row.j, k);
-      components[n].plain += plainRhs(row.i, row.j, k) * plainRhs(row.i, row.j, k);
-    }
-  for (Component& body : components) body.hydrostatic = body.surfaces == 0 || body.lifted <= body.plain;
-  forEachActiveRow(rows, [&](const ActiveRow& row) {
-    for (int k = row.begin; k < row.end; ++k) {
-      const std::int32_t n = component(row.i, row.j, k);
-      if (n >= 0 && !components[n].hydrostatic) rhs(row.i, row.j, k) = plainRhs(row.i, row.j, k);
-    }
+  forEachUnknown([&](Component& body, const Eigen::Vector3i& c) {
+    body.lifted += rhs(c) * rhs(c);
+    body.plain += plainRhs(c) * plainRhs(c);
+  });
+  bool allLifted = true;
+  for (Component& body : components) {
+    body.hydrostatic = body.surfaces == 0 || body.lifted <= body.plain;
+    allLifted = allLifted && body.hydrostatic;
+  }
+  if (allLifted) return;
+  forEachUnknown([&](const Component& body, const Eigen::Vector3i& c) {
+    if (!body.hydrostatic) rhs(c) = plainRhs(c);
   });
 }
 
 /// Takes the mean of `field` off every component without air; returns the largest mean.
 double Projection::Internals::centreAirless(DenseField<double>& field) {
-  if (std::all_of(components.begin(), components.end(), [](const Component& c) { return c.surfaces > 0; }))
-    return 0;
-  const auto eachAirless = [&](const auto& body) {
-    for (const ActiveRow& row : multigrid.finest().rows)
-      for (int k = row.begin; k < row.end; ++k) {
-        const std::int32_t n = component(row.i, row.j, k);
-        if (n >= 0 && components[n].surfaces == 0) body(components[n], field(row.i, row.j, k));
-      }
-  };
+  if (!anyAirless) return 0;
   for (Component& body : components) body.sum = 0;
-  eachAirless([](Component& body, double value) { body.sum += value; });
-  eachAirless([](const Component& body, double& value) { value -= body.mean(); });
+  forEachUnknown([&](Component& body, const Eigen::Vector3i& c) { body.sum += field(c); });
+  forEachUnknown([&](const Component& body, const Eigen::Vector3i& c) {
+    if (body.surfaces == 0) field(c) -= body.mean();
+  });
   double worst = 0;
   for (const Component& body : components)
     if (body.surfaces == 0) worst = std::max(worst, std::abs(body.mean()));
@@ -269,38 +326,55 @@ double Projection::Internals::scaleOfRightHandSide() const {
       [](double a, double b) { return std::max(a, b); });
 }
 
-/// u + dt g - (dt/rho) grad p on an open face that borders an unknown; `c` is the cell on its upper side.
+/// u + dt g - (dt/rho) grad p on an open face between an unknown and air; `c` is the cell on its upper side.
 double Projection::Internals::projectedFace(const Eigen::Vector3i& c, int axis, double u) const {
   const Eigen::Vector3i lower = c - Eigen::Vector3i::Unit(axis);
-  const bool upperWet = component(c) >= 0, lowerWet = component(lower) >= 0;
+  const bool upperWet = component(c) >= 0;
   const Eigen::Vector3i& wet = upperWet ? c : lower;
   const Component& body = components[component(wet)];
   const double falling = body.hydrostatic ? u : u + dt * params.gravity[axis];
-  if (upperWet && lowerWet) return falling - (solution(c) - solution(lower));
   const int side = upperWet ? -1 : 1;
   const Surface known = surfaceBeside(wet, axis, side);
   const double rise = surfaceValue(body, wet, axis, side, known.theta) - solution(wet);
   return falling - side * known.coefficient / openTowards(wet, axis, side) * rise;
 }
 
+/// One face of updateVelocity with a wet cell on one side alone, or closed.
+void Projection::Internals::updateFace(const Eigen::Vector3i& c, int axis, float& velocity, float& gradient) {
+  const bool open = boundary->open[axis](c) > 0, given = boundary->prescribed[axis](c) != 0;
+  const bool wall = !open && !given && (c[axis] == 0 || c[axis] == grid.cells[axis]);
+  valid[axis](c) = given || open || wall;
+  if (wall) velocity = boundary->velocity[axis](c);
+  if (!open) return;
+  const double projected = projectedFace(c, axis, velocity);
+  gradient = static_cast<float>(params.density * (params.gravity[axis] - (projected - velocity) / dt));
+  velocity = static_cast<float>(projected);
+}
+
 void Projection::Internals::updateVelocity(int axis, DenseField<float>& velocity,
                                            DenseField<float>& gradient) {
-  const double rate = 1 / dt, g = params.gravity[axis];
-  const int last = grid.cells[axis];
-  forEachCell(velocity.size(), [&](int i, int j, int k) {
-    const Eigen::Vector3i c(i, j, k);
-    const bool wet = component(c) >= 0 || component(c - Eigen::Vector3i::Unit(axis)) >= 0;
-    const bool open = boundary->open[axis](c) > 0, given = boundary->prescribed[axis](c) != 0;
-    const bool wall = !open && !given && (c[axis] == 0 || c[axis] == last);
-    valid[axis](c) = given || (wet && (open || wall));
-    gradient(c) = 0;
-    if (!wet) return;
-    if (open) {
-      const double projected = projectedFace(c, axis, velocity(c));
-      gradient(c) = static_cast<float>(params.density * (g - rate * (projected - velocity(c))));
-      velocity(c) = static_cast<float>(projected);
-    } else if (wall) {
-      velocity(c) = boundary->velocity[axis](c);
+  const auto step = component.stride(axis), stepBack = solution.stride(axis);
+  const double fall = dt * params.gravity[axis], toGradient = params.density / dt;
+  const Eigen::Vector3i& size = velocity.size();
+  forEachRow(size, [&](int i, int j) {
+    const std::int32_t* wet = &component(i, j, 0);
+    const std::uint8_t* given = &boundary->prescribed[axis](i, j, 0);
+    const float* open = &boundary->open[axis](i, j, 0);
+    const double* q = &solution(i, j, 0);
+    float *u = &velocity(i, j, 0), *g = &gradient(i, j, 0);
+    std::uint8_t* set = &valid[axis](i, j, 0);
+    for (int k = 0; k < size.z(); ++k) {
+      g[k] = 0;
+      if ((wet[k] | wet[k - step]) >= 0 && open[k] > 0) {  // both sides wet: most faces
+        const double push = q[k] - q[k - stepBack], pull = components[wet[k]].hydrostatic ? fall : 0;
+        u[k] = static_cast<float>(u[k] + (fall - pull - push));
+        g[k] = static_cast<float>(toGradient * (pull + push));
+        set[k] = 1;
+      } else if (wet[k] >= 0 || wet[k - step] >= 0) {
+        updateFace({i, j, k}, axis, u[k], g[k]);
+      } else {
+        set[k] = given[k];
+      }
     }
   });
 }
@@ -318,24 +392,16 @@ void Projection::Internals::writePressure() {
 }
 
 double Projection::Internals::largestDivergence(const MacVelocity& velocity,
-                                                const DenseField<float>& source) const {
+                                                const DenseField<float>& source) {
   return reduceActiveRows(
       multigrid.finest().rows,
       [&](const ActiveRow& row) {
-        double worst = 0;
-        for (int k = row.begin; k < row.end; ++k) {
-          const Eigen::Vector3i c(row.i, row.j, k);
-          if (component(c) < 0) continue;
-          double outflow = -source(c) * grid.dx;
-          for (int a = 0; a < 3; ++a)
-            for (int side : {-1, 1}) {
-              const Eigen::Vector3i face = side > 0 ? c + Eigen::Vector3i::Unit(a) : c;
-              const double open = boundary->open[a](face);
-              outflow += side * (open * velocity[a](face) + (1 - open) * boundary->velocity[a](face));
-            }
-          worst = std::max(worst, std::abs(outflow));
-        }
-        return worst;
+        const std::int32_t* wet = &component(row.i, row.j, 0);
+        double* outflow = &plainRhs(row.i, row.j, 0);
+        outflowOfRow(*boundary, velocity, row, outflow);
+        for (int k = row.begin; k < row.end; ++k)
+          outflow[k] = wet[k] >= 0 ? outflow[k] - source(row.i, row.j, k) * grid.dx : 0;
+        return maxMagnitude(outflow + row.begin, row.end - row.begin);
       },
       [](double a, double b) { return std::max(a, b); });
 }
