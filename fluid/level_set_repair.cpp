@@ -17,7 +17,8 @@ constexpr float kLeastAllowed = 0.5f, kMostAllowed = 1.5f;  // squared gradient:
 constexpr float kLeastWanted = 0.6f, kMostWanted = 1.4f;    // with room for what the neighbours do next
 constexpr int kTries = 20;  // a voxel moves by at most kTries / kTriesPerVoxel
 constexpr int kTriesPerVoxel = 20;
-constexpr int kPasses = 12;  // mending one voxel may break its neighbour; 3 is usual
+constexpr int kMendingPasses = 4;  // mending one voxel may break its neighbour; 3 passes are usual
+constexpr int kPasses = 40;  // then those left, features finer than the grid, are smoothed between passes
 
 bool offends(Stencil& stencil) {
   if (!stencil.zeroCrossing()) return false;
@@ -57,7 +58,22 @@ class Repair {
     accessor_.setValueOnly(voxel, suitableValue(voxel, own).value_or(own));
   }
 
+  /// Moves a voxel and its neighbours half way to the mean of theirs.
+  void smoothAround(const Coord& voxel) {
+    smooth(voxel);
+    for (const Coord& step : kSteps) smooth(voxel + step), smooth(voxel - step);
+  }
+
  private:
+  static inline const Coord kSteps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+  void smooth(const Coord& voxel) {
+    float sum = 0;
+    for (const Coord& step : kSteps)
+      sum += accessor_.getValue(voxel + step) + accessor_.getValue(voxel - step);
+    if (accessor_.isValueOn(voxel))
+      accessor_.setValueOnly(voxel, 0.5f * accessor_.getValue(voxel) + sum / 12);
+  }
   std::optional<float> suitableValue(const Coord& voxel, float own) {
     std::optional<float> otherSign;
     for (int n = 1; n <= kTries; ++n) {
@@ -89,7 +105,8 @@ std::size_t repairLevelSet(openvdb::FloatGrid& surface) {
   std::vector<Coord> offenders = offendersOf(surface);
   Repair repair(surface);
   for (int pass = 0; pass < kPasses && !offenders.empty(); ++pass) {
-    for (const Coord& voxel : offenders) repair.mend(voxel);
+    const bool stuck = pass >= kMendingPasses && pass % 2;
+    for (const Coord& voxel : offenders) stuck ? repair.smoothAround(voxel) : repair.mend(voxel);
     offenders = offendersOf(surface);
   }
   return offenders.size();

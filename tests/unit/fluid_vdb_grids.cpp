@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "fluid/level_set.h"
+#include "fluid/reinitialize.h"
 #include "fluid/vdb_grids.h"
 
 namespace spume::fluid {
@@ -52,7 +54,8 @@ TEST(VdbGrids, SurfacePassesTheLevelSetCheck) {
 double rough(const Eigen::Vector3d& x) {
   double phi = x.y() - 0.3 - 0.03 * std::sin(90 * x.x()) * std::cos(70 * x.z());
   for (int n = 0; n < 60; ++n) {
-    const Eigen::Vector3d centre(-0.1 + 0.24 * std::fmod(n * 0.618034, 1), 0.2 + 0.2 * std::fmod(n * 0.754878, 1),
+    const Eigen::Vector3d centre(-0.1 + 0.24 * std::fmod(n * 0.618034, 1),
+                                 0.2 + 0.2 * std::fmod(n * 0.754878, 1),
                                  0.3 + 0.16 * std::fmod(n * 0.569840, 1));
     const double radius = 0.001 + 0.012 * std::fmod(n * 0.3819, 1);
     const double sphere = (x - centre).norm() - radius;
@@ -62,8 +65,10 @@ double rough(const Eigen::Vector3d& x) {
 }
 
 TEST(VdbGrids, TurbulentSurfacePassesTheLevelSetCheck) {
-  const auto surface = surfaceGrid(kGrid, liquidOf(rough).phi);
-  EXPECT_EQ(openvdb::tools::checkLevelSet(*surface), "");
+  LiquidState liquid = liquidOf(rough);
+  fillGhostLayers(liquid.phi);
+  Reinitializer(kGrid).apply(liquid.phi);
+  EXPECT_EQ(openvdb::tools::checkLevelSet(*surfaceGrid(kGrid, liquid.phi)), "");
 }
 
 TEST(VdbGrids, ClosedSurfaceEnclosesTheVolumeOfThePool) {
