@@ -125,7 +125,8 @@ std::map<std::string, std::string> valuesOf(const std::string& text) {
   while (std::getline(lines, line)) {
     if (line.rfind("[[", 0) == 0) {
       table = line.substr(2, line.size() - 4);
-      table += "." + std::to_string(items[table]++);
+      const int item = items[table]++;
+      table.append(".").append(std::to_string(item));
     } else if (line.rfind("[", 0) == 0) {
       table = line.substr(1, line.size() - 2);
     } else if (const std::size_t equals = line.find(" = "); equals != std::string::npos) {

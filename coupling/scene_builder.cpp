@@ -61,7 +61,7 @@ std::vector<Eigen::Vector3d> outletPoints(const InflowSpec& inflow) {
 }
 
 fluid::Inflow buildInflow(const InflowSpec& spec, double dx) {
-  const double fastest = spec.speed.largest();
+  const double fastest = spec.speed.largest() > 0 ? spec.speed.largest() : 1;  // of a closed one: any
   fluid::Inflow inflow;
   inflow.name = spec.name;
   inflow.sdf = [region = nozzle(spec, dx)](const Eigen::Vector3d& x) { return signedDistance(region, x); };
@@ -69,7 +69,7 @@ fluid::Inflow buildInflow(const InflowSpec& spec, double dx) {
   inflow.area = std::numbers::pi * spec.radius * spec.radius;
   inflow.turbulence = spec.turbulence;
   inflow.scale = [speed = spec.speed, start = spec.start, stop = spec.stop, fastest](double t) {
-    const bool open = t >= start && t < stop && fastest > 0;
+    const bool open = t >= start && t < stop;
     return open ? speed.at(t) / fastest : 0.0;
   };
   return inflow;

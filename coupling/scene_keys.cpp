@@ -66,6 +66,8 @@ KeyTable liquidTable() {
   using fluid::FluidParams;
   return partTable("liquid", "The liquid and the particle level set that carries it.", &Scene::liquid)
       .key("density", &FluidParams::density, {1, 20000, "kg/m^3"}, "rho; water 1000")
+      .choice("level_set_transport", &FluidParams::levelSetTransport, {"semi_lagrangian", "weno5"},
+              "the markers carry the accuracy, so the first will do")
       .choice("velocity_advection", &FluidParams::velocityAdvection, {"semi_lagrangian", "maccormack"},
               "maccormack is second order, clamped")
       .key("cfl", &FluidParams::cfl, {0.2, 10, "-"}, "largest max|u| dt/dx of a sub-step")

@@ -78,6 +78,7 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("step", "-", "number of the step, from 1", [](const R& r) { return r.step; }),
       step("time", "s", "at its end", [](const R& r) { return r.time; }),
       step("dt", "s", "its length", [](const R& r) { return r.dt; }),
+      step("foam_substeps", "-", "steps the foam split it into", [](const R& r) { return r.foamSubSteps; }),
       step("halvings", "-", "times it was halved because a module failed",
            [](const R& r) { return r.halvings; }),
       step("liquid_substeps", "-", "sub-steps of the liquid", [](const R& r) { return r.liquid.subSteps; }),
