@@ -25,8 +25,8 @@ TEST(SceneLint, ShippedPouringHasNoWarning) {
 TEST(SceneLint, ThinSolidIsNamedWithTheResolutionItNeeds) {
   Scene scene = pouring();
   scene.solids.push_back(
-      {"slab", {ShapeKind::box, {0, 0.1, 0}, {0.16, 0.102, 0.16}, {0, 0, 0}, {0, 1, 0}, 0, 0}});
-  EXPECT_TRUE(mentions(lintScene(scene), "solid 'slab'", "at least 80"));  // 0.16 m / 2 mm
+      {"slab", {ShapeKind::box, {0, 0.125, 0}, {0.16, 0.126953125, 0.16}, {0, 0, 0}, {0, 1, 0}, 0, 0}});
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'slab'", "at least 82"));  // 0.16 m / (1/512 m), up
 }
 
 TEST(SceneLint, LargeBubblesThinJetsAndFastJetsAreFound) {
