@@ -32,6 +32,9 @@ constexpr int kStencilReach = 3;
 /// More sub-steps than this in one step mean that the velocity has run away.
 constexpr int kMaxSubSteps = 2000;
 
+/// Steps that fill an interval up to round-off must not be given one more.
+constexpr double kRoundOff = 1e-9;
+
 }  // namespace
 
 struct LiquidSolver::Internals {
@@ -67,7 +70,7 @@ struct LiquidSolver::Internals {
   double maxSpeed = 0;
 
   MarkerScene markerScene() const { return {state.grid, params, setup.walls, solids}; }
-  double cflSpeed(double dt) const { return maxSpeed + params.gravity.norm() * dt; }
+  double longestStep(double reach) const;
   int subStepsFor(double dt) const;
 
   void subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
@@ -119,8 +122,18 @@ void LiquidSolver::Internals::resumeControl() {
   volumeControl.resume(bodies, state.volume);
 }
 
+/// Time [s] in which the fastest liquid, speeding up under gravity, covers `reach` [m].
+double LiquidSolver::Internals::longestStep(double reach) const {
+  const double g = params.gravity.norm();
+  const double denominator = maxSpeed + std::sqrt(maxSpeed * maxSpeed + 4 * g * reach);
+  return denominator > 0 ? 2 * reach / denominator : std::numeric_limits<double>::infinity();
+}
+
 int LiquidSolver::Internals::subStepsFor(double dt) const {
-  const double steps = std::ceil(dt * cflSpeed(dt) / (params.cfl * state.grid.dx));
+  // n sub-steps of h = dt/n, each with (speed + g h) h <= cfl dx: gravity acts within a sub-step only, the
+  // next one counts again.
+  const double reach = params.cfl * state.grid.dx;
+  const double steps = std::ceil(dt / longestStep(reach) - kRoundOff);
   if (!(steps <= kMaxSubSteps)) {
     std::ostringstream message;
     message << "liquid: the speed " << maxSpeed << " m/s at t = " << state.time << " s would need " << steps
@@ -315,11 +328,7 @@ void LiquidSolver::rollBack() {
 }
 
 double LiquidSolver::stableDt(int maxSubSteps) const {
-  // Solves speed dt + g dt^2 = maxSubSteps cfl dx, the reach of `maxSubSteps` sub-steps under gravity.
-  const Internals& in = *internals_;
-  const double reach = maxSubSteps * in.params.cfl * in.state.grid.dx, g = in.params.gravity.norm();
-  const double denominator = in.maxSpeed + std::sqrt(in.maxSpeed * in.maxSpeed + 4 * g * reach);
-  return denominator > 0 ? 2 * reach / denominator : std::numeric_limits<double>::infinity();
+  return maxSubSteps * internals_->longestStep(internals_->params.cfl * internals_->state.grid.dx);
 }
 
 double LiquidSolver::liquidVolume() const {
