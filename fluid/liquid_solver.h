@@ -27,7 +27,7 @@ struct CollapsedPocket {
   Eigen::Vector3d velocity;  ///< of the liquid around it [m/s]
   double gas;                ///< [m^3]
   int cells;
-  double speed;  ///< largest remembered speed of the positive markers in it [m/s]
+  double speed;  ///< mean remembered speed of the positive markers in it [m/s]
 };
 
 /// Gas of bubbles under the surface, which the grid liquid must make room for.

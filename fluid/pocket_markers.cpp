@@ -14,13 +14,15 @@ void collapsePockets(const GridSpec& grid, const std::vector<FilledPocket>& fill
     for (const Eigen::Vector3i& cell : filled[p].cells) cellMark(cell) = static_cast<std::int32_t>(p);
 
   std::vector<double> speed(filled.size(), 0);
+  std::vector<int> markers(filled.size(), 0);
   const Eigen::Vector3i last = grid.cells - Eigen::Vector3i::Ones();
   const auto cellOf = [](float x, int high) { return std::clamp(static_cast<int>(std::floor(x)), 0, high); };
   for (std::size_t m = 0; m < positive.size(); ++m) {
     const std::int32_t p = cellMark(cellOf(positive.x[m], last.x()), cellOf(positive.y[m], last.y()),
                                     cellOf(positive.z[m], last.z()));
     if (p < 0) continue;
-    speed[p] = std::max<double>(speed[p], positive.speed[m]);
+    speed[p] += positive.speed[m];
+    ++markers[p];
     positive.x[m] = std::numeric_limits<float>::quiet_NaN();
   }
   sorter.compact(positive);
@@ -29,7 +31,8 @@ void collapsePockets(const GridSpec& grid, const std::vector<FilledPocket>& fill
     for (const Eigen::Vector3i& cell : filled[p].cells) cellMark(cell) = -1;
     const AirPocket& pocket = filled[p].pocket;
     if (pocket.cells > 1)
-      collapsed.push_back({pocket.centroid, filled[p].velocity, pocket.gas, pocket.cells, speed[p]});
+      collapsed.push_back({pocket.centroid, filled[p].velocity, pocket.gas, pocket.cells,
+                           speed[p] / std::max(1, markers[p])});
   }
 }
 
