@@ -10,30 +10,32 @@ enum class VelocityAdvection { semiLagrangian, macCormack };
 
 /// Every number that tunes the liquid. `validate()` is called once, by LiquidSolver's constructor.
 struct FluidParams {
-  Eigen::Vector3d gravity{0, -9.8, 0};   ///< [m/s^2], each component within +-1000
-  double density = 1000;                 ///< rho [kg/m^3], 1 to 20000; water
-  double viscosity = 0;                  ///< mu [Pa s], 0 to 1000; 0 = inviscid, numerical viscosity only
+  Eigen::Vector3d gravity{0, -9.8, 0};  ///< [m/s^2], each component within +-1000
+  double density = 1000;                ///< rho [kg/m^3], 1 to 20000; water
+  double viscosity = 0;                 ///< mu [Pa s], 0 to 1000; 0 = inviscid, numerical viscosity only
 
-  LevelSetTransport levelSetTransport = LevelSetTransport::semiLagrangian;   ///< markers carry the accuracy
-  VelocityAdvection velocityAdvection = VelocityAdvection::macCormack;       ///< second order, clamped
-  double cfl = 4;                        ///< largest max|u| dt/dx of one sub-step, 0.2 to 10
+  LevelSetTransport levelSetTransport = LevelSetTransport::semiLagrangian;  ///< markers carry the accuracy
+  VelocityAdvection velocityAdvection = VelocityAdvection::macCormack;      ///< second order, clamped
+  double cfl = 4;  ///< largest max|u| dt/dx of one sub-step, 0.2 to 10
 
-  int markersPerCell = 16;               ///< per sign, 8 to 64; 16 gives the same births as 64 at a third of the time
-  double markerBand = 3;                 ///< half-width of the seeded band [cells], 2 to 5 (Enright 2002)
-  double markerRadiusMin = 0.1;          ///< [dx] (Enright 2002)
-  double markerRadiusMax = 0.5;          ///< [dx] (Enright 2002)
-  int reseedInterval = 10;               ///< sub-steps between reseedings, 1 to 1000
-  double escapeDepth = 1;                ///< depth at which a positive marker leaves the set [dx], 0.5 to 3
-  double speedMemory = 0.05;             ///< decay time of a marker's remembered relative speed [s], 0.001 to 1
+  int markersPerCell = 16;       ///< per sign, 8 to 64; 16 gives the same births as 64 at a third of the time
+  double markerBand = 3;         ///< half-width of the seeded band [cells], 2 to 5 (Enright 2002)
+  double markerRadiusMin = 0.1;  ///< [dx] (Enright 2002)
+  double markerRadiusMax = 0.5;  ///< [dx] (Enright 2002)
+  int reseedInterval = 10;       ///< sub-steps between reseedings, 1 to 1000
+  double escapeDepth = 1;        ///< depth at which a positive marker leaves the set [dx], 0.5 to 3
+  /// Decay time of a marker's remembered relative speed [s], 0.001 to 1. Sinking by escapeDepth takes up to
+  /// 0.1 s; at 0.05 s a fast plunge and a soft landing are remembered alike.
+  double speedMemory = 0.15;
 
-  double pressureTolerance = 1e-6;       ///< relative residual of the pressure solve, 1e-12 to 1e-2
-  int pressureIterations = 200;          ///< limit of the pressure solve, 1 to 10000
-  bool volumeControl = true;             ///< hold every connected body at its booked volume (Kim et al. 2007)
-  /// Relaxation time of the volume error [s], 0.001 to 10. A pour at 32^3 loses up to half its flux to the level
-  /// set's errors; what stands at any time is this rate times this time.
+  double pressureTolerance = 1e-6;  ///< relative residual of the pressure solve, 1e-12 to 1e-2
+  int pressureIterations = 200;     ///< limit of the pressure solve, 1 to 10000
+  bool volumeControl = true;        ///< hold every connected body at its booked volume (Kim et al. 2007)
+  /// Relaxation time of the volume error [s], 0.001 to 10. A pour at 32^3 loses up to half its flux to the
+  /// level set's errors; what stands at any time is this rate times this time.
   double volumeControlTime = 0.02;
 
-  std::uint64_t seed = 1;                ///< of every random number the liquid draws
+  std::uint64_t seed = 1;  ///< of every random number the liquid draws
 
   /// Throws InvalidParameter naming the first field out of range.
   void validate() const;
