@@ -43,16 +43,33 @@ inline CubicValue cubicValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t s
   return sum;
 }
 
-/// The same for the trilinear interpolant of the eight values of that cube.
-inline CubicValue linearValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float tx, float ty,
-                              float tz) {
+/// Second difference that both ends of an edge agree on: their harmonic mean, 0 where the signs differ. It is
+/// the curvature where phi is smooth and vanishes where one end sits on a kink.
+inline float agreedBend(float a, float b) { return a * b > 0 ? 2 * a * b / (a + b) : 0; }
+
+/// Value and gradient of the trilinear interpolant of the eight values of that cube, bent along each axis by
+/// the second differences that the ends of its four edges agree on [after Min, Gibou 2007, Eq. 12]: third
+/// order where phi is smooth, and no overshoot at a kink, where a cubic thickens films and plain linear
+/// interpolation shrinks small drops (a sphere of 3 cells radius by 28 % in 20 cells of travel).
+inline CubicValue limitedValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float tx, float ty,
+                               float tz) {
   const auto mix = [](float a, float b, float t) { return a + t * (b - a); };
+  const auto bend = [](const float* q, std::ptrdiff_t s) { return q[s] - 2 * q[0] + q[-s]; };
+  const auto cubeBend = [&](std::ptrdiff_t s, std::ptrdiff_t t, std::ptrdiff_t u) {
+    float sum = 0;
+    for (const std::ptrdiff_t corner : {std::ptrdiff_t{0}, t, u, t + u})
+      sum += agreedBend(bend(p + corner, s), bend(p + corner + s, s));
+    return 0.25f * sum;
+  };
+  const float bx = cubeBend(si, sj, 1), by = cubeBend(sj, si, 1), bz = cubeBend(1, si, sj);
   const float c00 = mix(p[0], p[1], tz), c01 = mix(p[sj], p[sj + 1], tz);
   const float c10 = mix(p[si], p[si + 1], tz), c11 = mix(p[si + sj], p[si + sj + 1], tz);
   const float c0 = mix(c00, c01, ty), c1 = mix(c10, c11, ty);
   const float d0 = mix(p[1] - p[0], p[sj + 1] - p[sj], ty);
   const float d1 = mix(p[si + 1] - p[si], p[si + sj + 1] - p[si + sj], ty);
-  return {mix(c0, c1, tx), c1 - c0, mix(c01 - c00, c11 - c10, tx), mix(d0, d1, tx)};
+  const float sag = 0.5f * (bx * tx * (1 - tx) + by * ty * (1 - ty) + bz * tz * (1 - tz));
+  return {mix(c0, c1, tx) - sag, c1 - c0 - bx * (0.5f - tx), mix(c01 - c00, c11 - c10, tx) - by * (0.5f - ty),
+          mix(d0, d1, tx) - bz * (0.5f - tz)};
 }
 
 }  // namespace spume::fluid

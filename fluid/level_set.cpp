@@ -153,9 +153,9 @@ void SolidExtension::apply(DenseField<float>& field) const {
 
 namespace {
 
-/// Largest curvature term of the volume [phi per cell]: that of a drop of 4 cells radius. At kinks the second
+/// Largest curvature term of the volume [phi per cell]: that of a drop of 2.7 cells radius. At kinks the second
 /// difference is not a curvature and must not move the surface far.
-constexpr float kMaxLaplacian = 0.5f;
+constexpr float kMaxLaplacian = 0.75f;
 /// Cells further from the surface than this are full or empty [cells]: half a diagonal and a margin.
 constexpr float kUncutDistance = 1;
 /// Columns per side along which a cell cut by wall and surface is integrated.

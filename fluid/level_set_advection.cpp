@@ -20,7 +20,8 @@ constexpr double kBandMargin = 2;
 /// Regulariser of the WENO smoothness measures, relative to the slope squared [Jiang, Peng 2000].
 constexpr float kWenoEpsilon = 1e-6f;
 
-/// Value of phi at a point in index units: cubic, limited to the eight values around it, or linear at kinks.
+/// Value of phi at a point in index units: cubic, limited to the eight values around it, or limited quadratic
+/// at kinks.
 float sampleSurface(const FieldView& f, const DenseField<float>& phi, const DenseField<std::uint8_t>& kinks,
                     float x, float y, float z) {
   const CellBase b = cellBase(f, x, y, z);
@@ -28,7 +29,8 @@ float sampleSurface(const FieldView& f, const DenseField<float>& phi, const Dens
   const int si = f.strideI, sj = f.strideJ;
   const int i = b.offset / si - kGhost, j = b.offset % si / sj - kGhost, k = b.offset % sj - kGhost;
   const bool inside = phi.contains(i, j, k);
-  if (!inside || cubeIsKinked(kinks, i, j, k)) return linearValue(p, si, sj, b.fx, b.fy, b.fz).value;
+  if (!inside) return sampleIndex(f, x, y, z);
+  if (cubeIsKinked(kinks, i, j, k)) return limitedValue(p, si, sj, b.fx, b.fy, b.fz).value;
   const auto [low, high] =
       std::minmax({p[0], p[1], p[sj], p[sj + 1], p[si], p[si + 1], p[si + sj], p[si + sj + 1]});
   return std::clamp(cubicValue(p, si, sj, b.fx, b.fy, b.fz).value, low, high);

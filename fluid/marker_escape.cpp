@@ -1,13 +1,10 @@
 #include "fluid/marker_escape.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
-#include "fluid/level_set.h"
 #include "fluid/marker_chunks.h"
-#include "fluid/parallel.h"
 #include "fluid/sampling.h"
 
 namespace spume::fluid {
@@ -19,12 +16,6 @@ constexpr float kBodyDepth = 3;
 /// Markers higher than this above the surface meet no liquid yet [cells]; all pass through here before they
 /// sink.
 constexpr float kMeetingHeight = 2;
-
-Eigen::Vector3i cellOf(const MarkerSet& markers, std::size_t n, const Eigen::Vector3i& cells) {
-  const Eigen::Vector3i cell =
-      Eigen::Vector3f(markers.x[n], markers.y[n], markers.z[n]).array().floor().cast<int>();
-  return cell.cwiseMax(0).cwiseMin(cells - Eigen::Vector3i::Ones());
-}
 
 /// Speed of the air at a marker relative to the liquid it would sink into [m/s].
 float meetingSpeed(const MacView& wind, const Eigen::Vector3f& top, const ValueAndGradient& f, float dx,
@@ -40,44 +31,8 @@ float meetingSpeed(const MacView& wind, const Eigen::Vector3f& top, const ValueA
 
 }  // namespace
 
-void MarkerEscape::countAbove(const MarkerScene& scene, const DenseField<float>& phi,
-                              const MarkerSet& positive) {
-  count_.fill(0);
-  const FieldView field(phi);
-  forEachMarkerChunk(positive.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) {
-      if (sampleCentred(field, positive.x[n], positive.y[n], positive.z[n]) <= 0) continue;
-      std::atomic_ref<std::int32_t>(count_(cellOf(positive, n, scene.grid.cells)))
-          .fetch_add(1, std::memory_order_relaxed);
-    }
-  });
-}
-
 double MarkerEscape::refreshGas(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& positive) {
-  countAbove(scene, phi, positive);
-  const float dx = static_cast<float>(scene.grid.dx);
-  const double cellVolume = scene.grid.cellVolume();
-  const auto slab = [&](int i) {
-    double air = 0;
-    for (int j = 0; j < scene.grid.cells.y(); ++j)
-      for (int k = 0; k < scene.grid.cells.z(); ++k) {
-        const std::int32_t markers = count_(i, j, k);
-        if (markers == 0) continue;
-        const double free = scene.solids.cellFraction(i, j, k);
-        const double volume = free * (1 - liquidFractionOfCell(phi, dx, i, j, k)) * cellVolume;
-        share_(i, j, k) = static_cast<float>(volume / markers);
-        air += volume;
-      }
-    return air;
-  };
-  const double air = reduceSlabs(scene.grid.cells.x(), 0.0, slab, [](double a, double b) { return a + b; });
-  const FieldView field(phi);
-  forEachMarkerChunk(positive.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n)
-      if (sampleCentred(field, positive.x[n], positive.y[n], positive.z[n]) > 0)
-        positive.gas[n] = share_(cellOf(positive, n, scene.grid.cells));
-  });
-  return air;
+  return shares_.refresh(scene, phi, MarkerSign::positive, positive);
 }
 
 void MarkerEscape::refreshSpeed(const MarkerScene& scene, const DenseField<float>& phi,

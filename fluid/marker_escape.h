@@ -5,6 +5,7 @@
 #include "fluid/dense_field.h"
 #include "fluid/liquid_solver.h"
 #include "fluid/marker_particles.h"
+#include "fluid/marker_shares.h"
 
 namespace spume::fluid {
 
@@ -12,7 +13,7 @@ namespace spume::fluid {
 /// and when it is lost under the surface (model, "Coupling", rules 1 to 3).
 class MarkerEscape {
  public:
-  explicit MarkerEscape(const GridSpec& grid) : count_(grid.cells), share_(grid.cells), sorter_(grid) {}
+  explicit MarkerEscape(const GridSpec& grid) : shares_(grid), sorter_(grid) {}
 
   /// Rule 2: while phi > 0 at a positive marker, gas = air volume of its cell / positive markers with phi > 0
   /// in that cell [m^3]; frozen while the marker is under the surface. Returns the sum of the shares given
@@ -30,10 +31,7 @@ class MarkerEscape {
                       MarkerSet& positive, std::vector<EscapedMarker>& escaped);
 
  private:
-  void countAbove(const MarkerScene& scene, const DenseField<float>& phi, const MarkerSet& positive);
-
-  DenseField<std::int32_t> count_;  ///< positive markers with phi > 0 per cell
-  DenseField<float> share_;         ///< air volume per such marker [m^3]
+  MarkerShares shares_;
   MarkerSorter sorter_;
 };
 

@@ -12,8 +12,9 @@ namespace {
 
 /// Random numbers for marker positions; the sign is added to keep the two sets apart.
 constexpr std::uint64_t kSeedPurpose = 0x6d61726b;
-/// Attempts per missing marker to find a place on its side, each one attracted to a target distance.
-constexpr int kAttempts = 4;
+/// Attempts per missing marker to find a place in its cell and on its side, each one attracted to a target
+/// distance.
+constexpr int kAttempts = 6;
 /// Newton steps of one attraction; phi is a distance, so one nearly always does [Enright 2002].
 constexpr int kAttractions = 3;
 /// Cells whose centre lies deeper than this behind a wall get no markers [cells].
@@ -113,7 +114,7 @@ void MarkerSeeder::addMissing(const Side& side, std::int64_t subStep, MarkerSet&
       float x = static_cast<float>(i + random.uniform());
       float y = static_cast<float>(j + random.uniform());
       float z = static_cast<float>(k + random.uniform());
-      if (!side.attract(random, x, y, z)) continue;
+      if (!side.attract(random, x, y, z) || sorter_.cellNumber(x, y, z) != cell) continue;
       const float radius = std::clamp(side.depth(x, y, z), side.nearest,
                                       static_cast<float>(side.scene.params.markerRadiusMax));
       out.append(x, y, z, radius);

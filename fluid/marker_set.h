@@ -11,7 +11,7 @@ namespace spume::fluid {
 struct MarkerSet {
   std::vector<float> x, y, z;  ///< position [cells]
   std::vector<float> radius;   ///< [cells], within markerRadiusMin..markerRadiusMax
-  std::vector<float> gas;      ///< air the marker stands for [m^3]; kept for positive markers only
+  std::vector<float> gas;      ///< volume the marker stands for [m^3]: air if positive, liquid if negative
   std::vector<float> speed;    ///< largest recent speed relative to the receiving liquid [m/s]; positive only
   std::vector<std::uint8_t> escaped;  ///< 1 while on the wrong side by more than its radius
 

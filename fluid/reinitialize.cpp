@@ -49,7 +49,8 @@ Crossing nearestCrossing(const float* p, const std::array<std::ptrdiff_t, 3>& st
   return nearest;
 }
 
-/// The interpolant near a cell, in displacements from it [cells]: cubic, or linear in cubes with a kink.
+/// The interpolant near a cell, in displacements from it [cells]: cubic, or limited quadratic in cubes with a
+/// kink.
 struct Neighbourhood {
   const DenseField<float>& phi;
   const DenseField<std::uint8_t>& kinks;
@@ -63,7 +64,7 @@ struct Neighbourhood {
     const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
     if (!cubeIsKinked(kinks, corner.x(), corner.y(), corner.z()))
       return cubicValue(p, si, sj, t.x(), t.y(), t.z());
-    return linearValue(p, si, sj, t.x(), t.y(), t.z());
+    return limitedValue(p, si, sj, t.x(), t.y(), t.z());
   }
 };
 

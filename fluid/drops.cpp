@@ -1,0 +1,119 @@
+#include "fluid/drops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fluid/sampling.h"
+
+namespace spume::fluid {
+namespace {
+
+/// Height above the surface at which a negative marker is a drop [cells]: nearer, the grid may still take it
+/// back.
+constexpr float kLaunchHeight = 1;
+
+/// Position in cell units, kept where psi has values.
+Eigen::Vector3f centred(const GridSpec& grid, const Eigen::Vector3d& world) {
+  const Eigen::Vector3f top = grid.cells.cast<float>() - Eigen::Vector3f::Constant(0.5f);
+  return grid.toCells(world).cast<float>().cwiseMax(0.5f).cwiseMin(top);
+}
+
+/// Pushes a drop out of the nearest solid and takes the velocity into it.
+void slideOff(const MarkerScene& scene, const FieldView& psi, Drop& drop) {
+  const Eigen::Vector3f at = centred(scene.grid, drop.position);
+  const ValueAndGradient wall = sampleCentredGradient(psi, at.x(), at.y(), at.z());
+  if (wall.value >= 0) return;
+  Eigen::Vector3d normal(wall.gx, wall.gy, wall.gz);
+  const double slope = normal.norm() / scene.grid.dx;
+  if (slope <= 0) return;
+  normal.normalize();
+  drop.position -= wall.value / std::max(slope, 0.5) * normal;
+  drop.velocity -= std::min(0.0, drop.velocity.dot(normal)) * normal;
+}
+
+/// Keeps a drop inside the closed sides of the domain; false if it flew out of an open one.
+bool keepInside(const MarkerScene& scene, Drop& drop) {
+  const Eigen::Vector3d low = scene.grid.origin, high = scene.grid.upper();
+  for (int a = 0; a < 3; ++a) {
+    if (drop.position[a] < low[a]) {
+      if (!scene.walls.closed[2 * a]) return false;
+      drop.position[a] = low[a];
+      drop.velocity[a] = std::max(0.0, drop.velocity[a]);
+    } else if (drop.position[a] > high[a]) {
+      if (!scene.walls.closed[2 * a + 1]) return false;
+      drop.position[a] = high[a];
+      drop.velocity[a] = std::min(0.0, drop.velocity[a]);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+double Drops::launch(const MarkerScene& scene, const DenseField<float>& phi, const MacVelocity& velocity,
+                     MarkerSet& negative) {
+  shares_.refresh(scene, phi, MarkerSign::negative, negative);
+  const FieldView field(phi);
+  const MacView wind(velocity);
+  const float perDx = static_cast<float>(1 / scene.grid.dx);
+  double launched = 0;
+  for (std::size_t n = 0; n < negative.size(); ++n) {
+    const float x = negative.x[n], y = negative.y[n], z = negative.z[n];
+    const float height = perDx * sampleCentred(field, x, y, z);
+    if (height <= std::max(kLaunchHeight, negative.radius[n])) continue;
+    const Velocity3f u = sampleVelocity(wind, x, y, z);
+    drops_.push_back({scene.grid.toWorld({x, y, z}), {u.x, u.y, u.z}, negative.gas[n]});
+    launched += negative.gas[n];
+    negative.x[n] = std::numeric_limits<float>::quiet_NaN();
+  }
+  sorter_.compact(negative);
+  return launched;
+}
+
+void Drops::advance(const MarkerScene& scene, const DenseField<float>& phi, double dt, DropReport& report) {
+  const FieldView field(phi), psi(scene.solids.psi);
+  std::size_t kept = 0;
+  for (Drop& drop : drops_) {
+    drop.position += dt * drop.velocity + 0.5 * dt * dt * scene.params.gravity;
+    drop.velocity += dt * scene.params.gravity;
+    if (!keepInside(scene, drop)) {
+      report.left += drop.volume;
+      continue;
+    }
+    slideOff(scene, psi, drop);
+    const Eigen::Vector3f at = scene.grid.toCells(drop.position).cast<float>();
+    if (sampleCentred(field, at.x(), at.y(), at.z()) < 0)
+      report.landed.push_back(drop);
+    else
+      drops_[kept++] = drop;
+  }
+  drops_.resize(kept);
+}
+
+double Drops::volume() const {
+  double sum = 0;
+  for (const Drop& drop : drops_) sum += drop.volume;
+  return sum;
+}
+
+Eigen::Vector3d Drops::momentum(double density) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Drop& drop : drops_) sum += density * drop.volume * drop.velocity;
+  return sum;
+}
+
+void depositMomentum(const GridSpec& grid, const std::vector<Drop>& landed, MacVelocity& velocity) {
+  for (const Drop& drop : landed) {
+    const double share = 0.5 * std::min(drop.volume / grid.cellVolume(), 1.0);
+    const Eigen::Vector3i cell =
+        grid.toCells(drop.position).array().floor().cast<int>().max(0).min(grid.cells.array() - 1).matrix();
+    for (int a = 0; a < 3; ++a)
+      for (const Eigen::Vector3i& face : {cell, Eigen::Vector3i(cell + Eigen::Vector3i::Unit(a))}) {
+        float& u = velocity[a](face);
+        u += static_cast<float>(share * (drop.velocity[a] - u));
+      }
+  }
+}
+
+}  // namespace spume::fluid
