@@ -2,6 +2,8 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
+#include <string>
 
 #include "apps/commands/commands.h"
 #include "apps/exit_code.h"
@@ -37,6 +39,19 @@ int perform(const Action& action) {
   }
 }
 
+/// What is wrong with the verb of a command line, or an empty string.
+std::string verbProblem(const CLI::App& program, int argc, char** argv) {
+  std::string verbs;
+  bool known = argc > 1 && argv[1][0] == '-';
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) {
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    known = known || (argc > 1 && verb->get_name() == argv[1]);
+  }
+  if (known) return {};
+  return (argc < 2 ? std::string("no verb given") : std::string("unknown verb ") + argv[1]) +
+         ": expected one of " + verbs;
+}
+
 int parseAndPerform(int argc, char** argv) {
   CLI::App program{"Bubbles and foam in a liquid."};
   program.name("spume");
@@ -52,6 +67,8 @@ int parseAndPerform(int argc, char** argv) {
   addInfo(program, action);
   addRender(program, action);
   addMeasure(program, action);
+  if (const std::string problem = verbProblem(program, argc, argv); !problem.empty())
+    return complain(std::invalid_argument(problem), kUsage);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {

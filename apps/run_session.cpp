@@ -72,7 +72,7 @@ Session::Session(const SessionOptions& options) : options_(options), folder_(pre
   log_ = std::make_unique<Log>(folder_.log());
   if (loaded) {
     for (const std::string& warning : loaded->warnings) log_->say("warning: " + warning);
-    log_->say("going on from " + loaded->path);
+    if (!finished()) log_->say("going on from " + loaded->path);
   }
   folder_.writeScene(options.scene);
   statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame);

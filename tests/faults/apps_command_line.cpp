@@ -17,7 +17,7 @@ TEST(CommandLine, HelpIsNoError) {
 }
 
 TEST(CommandLine, WrongUseIsRefused) {
-  EXPECT_EQ(runSpume("").code, 2);
+  expectRefused(runSpume(""), 2, "no verb");
   expectRefused(runSpume("fly"), 2, "fly");
   expectRefused(runSpume("run"), 2, "scene");
   expectRefused(runSpume("run x.toml --frobnicate"), 2, "frobnicate");
