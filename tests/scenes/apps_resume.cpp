@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/apps_program.h"
+
+namespace spume::apps::test {
+namespace {
+
+/// A jet into a pool, small enough for a test and fast enough to catch air.
+const std::string kPour =
+    "[domain]\nsize = [0.06, 0.06, 0.06]\nresolution = 16\n"
+    "[output]\npreview = false\ncheckpoint_every = 2\n"
+    "[coupling.entrainment]\nblock_size = 0.01\n"
+    "[[liquid_body]]\nname = \"pool\"\nshape = \"box\"\nlower = [-0.01, -0.01, -0.01]\nupper = [0.07, 0.02, "
+    "0.07]\n"
+    "[[inflow]]\nname = \"jet\"\ncentre = [0.025, 0.05, 0.03]\ndirection = [0, -1, 0]\nradius = 0.008\nspeed "
+    "= 1.2\n";
+
+/// Exact copies of both runs' last frame and of everything that happened on the way.
+void expectSameRun(const std::string& a, const std::string& b) {
+  for (const char* file : {"/bubbles/bubbles.0006.ply", "/events.csv"}) {
+    ASSERT_FALSE(contentsOf(a + file).empty()) << file;
+    EXPECT_EQ(contentsOf(a + file), contentsOf(b + file)) << file;
+  }
+  const std::string frame = "/liquid/liquid.0006.vdb";
+  EXPECT_EQ(runSpume("info " + a + frame + " | tail -n +2").output,
+            runSpume("info " + b + frame + " | tail -n +2").output);
+}
+
+TEST(Resume, EqualsAnUninterruptedRun) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("pour.toml", kPour), a = scratch / "a", b = scratch / "b";
+  ASSERT_EQ(runSpume("run " + scene + " --frames 6 -o " + a).code, 0);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 3 --threads 1 -o " + b).code, 0);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 6 --threads 3 -o " + b).code, 0);
+  expectSameRun(a, b);
+}
+
+TEST(Resume, GoesOnFromTheMiddleOfAFrame) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("pour.toml", kPour), a = scratch / "a", b = scratch / "b";
+  ASSERT_EQ(runSpume("run " + scene + " --frames 6 -o " + a).code, 0);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 6 --max-wall 0.001s -o " + b).code, 75);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 6 -o " + b).code, 0);
+  expectSameRun(a, b);
+}
+
+TEST(Resume, AnotherSceneIsRefusedAndTheRunKept) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("pour.toml", kPour), folder = scratch / "a";
+  ASSERT_EQ(runSpume("run " + scene + " --frames 2 -o " + folder).code, 0);
+  const std::string before = contentsOf(folder + "/events.csv");
+  expectRefused(runSpume("run " + scene + " --frames 2 --set foam.wetness=0.9 -o " + folder), 2,
+                "foam.wetness");
+  EXPECT_EQ(contentsOf(folder + "/events.csv"), before);
+  EXPECT_EQ(runSpume("run " + scene + " --frames 2 --set foam.wetness=0.9 --restart -o " + folder).code, 0);
+}
+
+}  // namespace
+}  // namespace spume::apps::test
