@@ -33,7 +33,7 @@ struct FluidParams {
   bool volumeControl = true;        ///< hold every connected body at its booked volume (Kim et al. 2007)
   /// Relaxation time of the volume error [s], 0.001 to 10. A pour at 32^3 loses up to half its flux to the
   /// level set's errors; what stands at any time is this rate times this time.
-  double volumeControlTime = 0.02;
+  double volumeControlTime = 0.01;
 
   std::uint64_t seed = 1;  ///< of every random number the liquid draws
 

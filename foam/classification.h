@@ -15,11 +15,12 @@ inline constexpr double kFullWetShare = 0.1;
 /// > r.
 BubbleClass classify(double phi, double radius, double surfaceWeight);
 
-/// How far above -r a liquid bubble must rise to be called surface, in radii, and the weight at which an air
-/// bubble is called surface: a bubble at the border of two classes keeps its label while waves rock it.
-inline constexpr double kClassMargin = 0.25, kWeightToFloat = 0.5;
+/// How far above -r a liquid bubble must rise to be called surface, and above r a surface bubble to be called
+/// air, in radii: a bubble at the border of two classes keeps its label while waves rock it.
+inline constexpr double kClassMargin = 0.25;
 
-/// The same with a memory: leaves a class only by a margin. Labels alone: no force depends on them.
+/// The same with a memory: leaves a class only by a margin, and comes down from the air only to full surface
+/// weight. Labels alone: no force depends on them.
 BubbleClass reclassify(BubbleClass before, double phi, double radius, double surfaceWeight);
 
 /// Sets `surfaceWeight` of every bubble from the geometry of the step's start, 1 for a liquid one,

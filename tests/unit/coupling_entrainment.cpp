@@ -35,7 +35,7 @@ TEST(Entrainment, GasOfLeaversEqualsBubblesPlusReservoirs) {
   GasLedger ledger;
   double born = 0;
   for (int step = 0; step < 20; ++step)
-    born += gasOf(entrainment.step(leavers(300, 1e-9, 1.0), {}, reservoirs, ledger));
+    born += gasOf(entrainment.step(leavers(300, 1e-9, 1.01 * spec.onset), {}, reservoirs, ledger));
   const double paid = 20 * 300 * 1e-9 * spec.length / dx;
   EXPECT_NEAR(ledger.bornMarkers, paid, kRoundOff * paid);
   EXPECT_NEAR(born + ledger.inReservoirs, paid, kRoundOff * paid);
@@ -45,7 +45,8 @@ TEST(Entrainment, SlowLeaversAreBookedAndGiveNoBubble) {
   const Entrainment entrainment(EntrainmentSpec{}, 2.5e-3, 7);
   Reservoirs reservoirs;
   GasLedger ledger;
-  EXPECT_TRUE(entrainment.step(leavers(1000, 1e-8, 0.49), {}, reservoirs, ledger).empty());
+  EXPECT_TRUE(
+      entrainment.step(leavers(1000, 1e-8, 0.99 * EntrainmentSpec{}.onset), {}, reservoirs, ledger).empty());
   EXPECT_EQ(ledger.bornMarkers, 0);
   const double lost = 1000 * 1e-8 * 3.6e-3 / 2.5e-3;
   EXPECT_NEAR(ledger.notEntrained, lost, kRoundOff * lost);
@@ -56,8 +57,8 @@ TEST(Entrainment, CountDoesNotDependOnHowTheGasIsSplit) {
   const Entrainment entrainment(EntrainmentSpec{}, 2.5e-3, 7);
   Reservoirs heavyBlocks, lightBlocks;
   GasLedger heavyLedger, lightLedger;
-  const std::vector<fluid::EscapedMarker> heavy(64, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-28, 1.0});
-  const std::vector<fluid::EscapedMarker> light(1024, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-32, 1.0});
+  const std::vector<fluid::EscapedMarker> heavy(64, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-28, 2.0});
+  const std::vector<fluid::EscapedMarker> light(1024, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-32, 2.0});
   const auto few = entrainment.step(heavy, {}, heavyBlocks, heavyLedger);
   const auto many = entrainment.step(light, {}, lightBlocks, lightLedger);
   ASSERT_EQ(few.size(), many.size());
@@ -90,7 +91,7 @@ TEST(Entrainment, PocketsPayTheirGasUnderTheirOwnCause) {
   GasLedger ledger;
   const double gas = 5e-8;
   const auto births =
-      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 0.8}}, reservoirs, ledger);
+      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 1.2}}, reservoirs, ledger);
   EXPECT_NEAR(gasOf(births) + ledger.inReservoirs, gas, kRoundOff * gas);
   EXPECT_NEAR(ledger.bornPockets, gas, kRoundOff * gas);
   ASSERT_FALSE(births.empty());

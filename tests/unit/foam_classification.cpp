@@ -33,8 +33,10 @@ TEST(Classification, LabelIsKeptWithinAMargin) {
   EXPECT_EQ(reclassify(BubbleClass::liquid, -0.7e-3, 1e-3, 1), BubbleClass::surface);
   EXPECT_EQ(reclassify(BubbleClass::surface, -0.9e-3, 1e-3, 1), BubbleClass::surface);
   EXPECT_EQ(reclassify(BubbleClass::surface, -1.1e-3, 1e-3, 1), BubbleClass::liquid);
-  EXPECT_EQ(reclassify(BubbleClass::air, 0.5e-3, 1e-3, 0.3), BubbleClass::air);
-  EXPECT_EQ(reclassify(BubbleClass::air, 0.5e-3, 1e-3, 0.7), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::air, 0.5e-3, 1e-3, 0.7), BubbleClass::air);
+  EXPECT_EQ(reclassify(BubbleClass::air, 0.5e-3, 1e-3, 1), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::surface, 1.1e-3, 1e-3, 0), BubbleClass::surface);
+  EXPECT_EQ(reclassify(BubbleClass::surface, 1.3e-3, 1e-3, 0), BubbleClass::air);
   EXPECT_EQ(reclassify(BubbleClass::surface, 0.5e-3, 1e-3, 0.3), BubbleClass::surface);
   EXPECT_EQ(reclassify(BubbleClass::surface, 0.5e-3, 1e-3, 0), BubbleClass::air);
 }
