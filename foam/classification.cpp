@@ -98,8 +98,9 @@ BubbleClass reclassify(BubbleClass before, double phi, double radius, double sur
   const BubbleClass now = classify(phi, radius, surfaceWeight);
   const bool stillDeep = phi < -(1 - kClassMargin) * radius;
   if (before == BubbleClass::liquid && now != before && stillDeep) return before;
-  if (before == BubbleClass::air && now == BubbleClass::surface && surfaceWeight < kWeightToFloat)
-    return before;
+  const bool stillNear = phi > radius && phi <= (1 + kClassMargin) * radius;
+  if (before == BubbleClass::surface && stillNear) return before;
+  if (before == BubbleClass::air && now == BubbleClass::surface && surfaceWeight < 1) return before;
   return now;
 }
 
