@@ -59,6 +59,8 @@ TEST(LoneBubble, StartsWithTheAddedMassAndNeverOvershoots) {
   const double a0 = (params.density - params.gasDensity) * 9.8 / (params.gasDensity + params.density / 2);
   EXPECT_NEAR(a0, 19.53, 0.005);  // accuracy, B2
   constexpr double kAim = 0.02;   // of the exact speed, at dt = 1 ms
+  // The terminal speed is that after 1000 steps of 1 ms, each solved to 1e-9.
+  constexpr double kSettled = 1e-8;
   for (const double diameter : {0.2e-3, 1e-3, 3e-3, 10e-3, 20e-3}) {
     const double terminal = riseSpeed(params, diameter, 0.001, 1);
     FoamSolver solver(params);
@@ -69,10 +71,10 @@ TEST(LoneBubble, StartsWithTheAddedMassAndNeverOvershoots) {
       solver.step(bubbles, pool, 0.001);
       const double exact = terminal * std::tanh(a0 * 0.001 * step / terminal);
       ASSERT_NEAR(bubbles.velocity[0].y(), exact, kAim * exact) << "d " << diameter << " step " << step;
-      ASSERT_LE(bubbles.velocity[0].y(), terminal * (1 + 1e-12));
+      ASSERT_LE(bubbles.velocity[0].y(), terminal * (1 + kSettled));
     }
     for (const double dt : {0.005, 0.02, 1.0})
-      EXPECT_LE(riseSpeed(params, diameter, dt, dt), terminal * (1 + 1e-12)) << "first step of " << dt;
+      EXPECT_LE(riseSpeed(params, diameter, dt, dt), terminal * (1 + kSettled)) << "first step of " << dt;
   }
 }
 

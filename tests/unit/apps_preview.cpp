@@ -9,6 +9,7 @@
 #include "apps/preview/renderer.h"
 #include "apps/preview/surface_mesh.h"
 #include "coupling/errors.h"
+#include "tests/support/temporary_path.h"
 
 namespace {
 
@@ -161,7 +162,7 @@ TEST(Preview, ShowsWaterAndBubbles) {
 TEST(Preview, PngReadsBackAsWritten) {
   apps::Image image(3, 2);
   for (std::size_t b = 0; b < image.rgb.size(); ++b) image.rgb[b] = static_cast<std::uint8_t>(13 * b + 5);
-  const std::string path = ::testing::TempDir() + "spume_preview_test.png";
+  const std::string path = temporaryPath("spume_preview_test.png");
   apps::writePng(image, path);
   png_image header{};
   header.version = PNG_IMAGE_VERSION;

@@ -7,6 +7,7 @@
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
 #include "coupling/liquid_cache.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 constexpr FrameStamp kStamp{17, 0.5666, 30};
 constexpr double kVoxel = 2.5e-3;
 
-std::string fileIn(const std::string& name) { return testing::TempDir() + name; }
+std::string fileIn(const std::string& name) { return temporaryPath(name); }
 
 foam::BubbleStore someBubbles(int count) {
   std::mt19937 random(5);

@@ -8,6 +8,7 @@
 #include "coupling/atomic_file.h"
 #include "coupling/cell_table.h"
 #include "coupling/csv_writer.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 /// A file that vanishes with the test.
 struct TemporaryTable {
   std::string path;
-  explicit TemporaryTable(const std::string& name) : path(testing::TempDir() + name) {}
+  explicit TemporaryTable(const std::string& name) : path(temporaryPath(name)) {}
   ~TemporaryTable() { std::remove(path.c_str()); }
   std::string contents() const { return readFile(path); }
 };

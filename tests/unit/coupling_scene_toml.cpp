@@ -10,12 +10,13 @@
 #include "coupling/scene_toml.h"
 #include "coupling/toml_slot.h"
 #include "foam/presets.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
 
 Scene readText(const std::string& text, const Overrides& overrides = {}) {
-  const std::string path = testing::TempDir() + "good_scene.toml";
+  const std::string path = temporaryPath("good_scene.toml");
   std::ofstream(path) << text;
   const Scene scene = readScene(path, overrides);
   std::remove(path.c_str());

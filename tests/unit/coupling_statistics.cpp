@@ -5,6 +5,7 @@
 
 #include "coupling/atomic_file.h"
 #include "coupling/statistics.h"
+#include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
 namespace {
@@ -52,7 +53,7 @@ class Statistics : public testing::Test {
     }
   }
 
-  std::string folder_ = testing::TempDir() + "spume_statistics";
+  std::string folder_ = temporaryPath("spume_statistics");
 };
 
 TEST_F(Statistics, RowsHaveTheDocumentedColumns) {

@@ -204,8 +204,8 @@ TEST(MarkerEscape, RemembersTheSpeedRelativeToTheLiquidBelow) {
   escape.refreshSpeed(pool.scene(), pool.phi, shear, 0.01, pool.positive);
   EXPECT_NEAR(pool.positive.speed[0], 1.5, 1e-5);  // three cells below it is slower by this
   const MacVelocity uniform = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(3, 0, 0); });
-  escape.refreshSpeed(pool.scene(), pool.phi, uniform, 0.05, pool.positive);
-  EXPECT_NEAR(pool.positive.speed[0], 1.5 * std::exp(-1), 1e-5);  // speedMemory is 50 ms
+  escape.refreshSpeed(pool.scene(), pool.phi, uniform, pool.params.speedMemory, pool.positive);
+  EXPECT_NEAR(pool.positive.speed[0], 1.5 * std::exp(-1), 1e-5);  // after one decay time
 }
 
 TEST(MarkerEscape, ReleasesMarkersBelowTheEscapeDepthOnly) {
