@@ -54,7 +54,6 @@ struct TimeSpec {
 struct LiquidBodySpec {
   std::string name;
   ShapeSpec shape;
-  Eigen::Vector3d velocity{0, 0, 0};  ///< initial [m/s]
 };
 
 struct SolidSpec {

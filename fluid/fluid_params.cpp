@@ -26,7 +26,6 @@ void require(const char* field, double value, double low, double high, const cha
 void FluidParams::validate() const {
   for (int a = 0; a < 3; ++a) require("gravity", gravity[a], -1000, 1000, "m/s^2");
   require("density", density, 1, 20000, "kg/m^3");
-  require("viscosity", viscosity, 0, 1000, "Pa s");
   require("cfl", cfl, 0.2, 10, "");
   require("markersPerCell", markersPerCell, 8, 64, "");
   require("markerBand", markerBand, 2, 5, "cells");

@@ -12,7 +12,6 @@ enum class VelocityAdvection { semiLagrangian, macCormack };
 struct FluidParams {
   Eigen::Vector3d gravity{0, -9.8, 0};  ///< [m/s^2], each component within +-1000
   double density = 1000;                ///< rho [kg/m^3], 1 to 20000; water
-  double viscosity = 0;                 ///< mu [Pa s], 0 to 1000; 0 = inviscid, numerical viscosity only
 
   LevelSetTransport levelSetTransport = LevelSetTransport::semiLagrangian;  ///< markers carry the accuracy
   VelocityAdvection velocityAdvection = VelocityAdvection::macCormack;      ///< second order, clamped

@@ -17,6 +17,9 @@ namespace {
 constexpr double kWenoCfl = 0.5;
 /// Cells between the zero set's furthest reach in a step and the end of the band that may stay unmoved.
 constexpr double kBandMargin = 2;
+/// Values farther from the surface than this are interpolated linearly [cells]: only those near it decide
+/// where it is, the others are made distances again from them.
+constexpr float kAccurateReach = 3;
 /// Regulariser of the WENO smoothness measures, relative to the slope squared [Jiang, Peng 2000].
 constexpr float kWenoEpsilon = 1e-6f;
 
@@ -120,6 +123,7 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
   const bool wholeGrid = cfl * std::sqrt(3.0) + kBandMargin > kLevelSetBand;
   const float reach = wholeGrid ? 2 * kLevelSetBand : kLevelSetBand * (1 - 1e-5f);
   const float limit = reach * static_cast<float>(grid_.dx);
+  const float nearby = kAccurateReach * static_cast<float>(grid_.dx);
   forEachRow(grid_.cells, [&](int i, int j) {
     for (int k = 0; k < grid_.cells.z(); ++k) {
       const float value = phi(i, j, k);
@@ -128,7 +132,10 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
         continue;
       }
       const Velocity3f x = departure(wind, top, cellsPerSpeed, i + 0.5f, j + 0.5f, k + 0.5f);
-      next_(i, j, k) = sampleSurface(source, phi, kinks_, x.x - 0.5f, x.y - 0.5f, x.z - 0.5f);
+      const float linear = sampleCentred(source, x.x, x.y, x.z);
+      next_(i, j, k) = std::abs(linear) > nearby
+                           ? linear
+                           : sampleSurface(source, phi, kinks_, x.x - 0.5f, x.y - 0.5f, x.z - 0.5f);
     }
   });
   phi.swap(next_);
