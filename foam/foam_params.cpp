@@ -1,6 +1,7 @@
 #include "foam/foam_params.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "foam/errors.h"
@@ -43,7 +44,15 @@ void requireSurroundings(const FoamParams& p) {
   requireRange("airDragCoefficient", p.airDragCoefficient, 0, 1e3, "kg/s");
   requireRange("addedMass", p.addedMass, 0, 2, "");
   requireRange("liquidAdhesion", p.liquidAdhesion, 0, 100, "N/m");
+  requireRange("attraction", p.attraction, 0, 1, "N");
   requireRange("wallStiffnessFactor", p.wallStiffnessFactor, 0, 1000, "");
+}
+
+void requireSolid(const SolidSurface& solid) {
+  requireRange("solid.adhesion", solid.adhesion, 0, 100, "N/m");
+  requireRange("solid.detachRadius", solid.detachRadius, 0, 1, "m");
+  requireRange("solid.attraction", solid.attraction, 0, 1, "N m");
+  requireRange("solid.contactAngle", solid.contactAngle, 0, std::numbers::pi, "rad");
 }
 
 void requireLifeAndSolver(const FoamParams& p) {
@@ -60,6 +69,8 @@ void FoamParams::validate() const {
   requireMaterials(*this);
   requireStructure(*this);
   requireSurroundings(*this);
+  requireSolid(walls);
+  for (const SolidSurface& solid : solids) requireSolid(solid);
   requireLifeAndSolver(*this);
   if (gasDensity == 0 && addedMass == 0)
     throw InvalidParameter(

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace spume::foam {
 
@@ -10,6 +11,16 @@ enum class Preset { paper, physical };
 enum class DragLaw { coefficient, contaminated, clean };
 enum class BuoyancyLaw { hydrostatic, pressureGradient };
 enum class AirDragLaw { coefficient, stokes };
+enum class AttractionLaw { none, coefficient, capillary };
+
+/// How bubbles take to a solid.
+struct SolidSurface {
+  double adhesion = 0.05;  ///< s_sad of Eq. 7 [N/m], 0 to 100
+  /// largest bubble it holds against its full buoyancy [m], 0 to 1; 0: clean glass, nothing sticks
+  double detachRadius = 0;
+  double attraction = 2e-7;      ///< beta of Eq. 8 in AttractionLaw::coefficient [N m], 0 to 1
+  double contactAngle = 1.0472;  ///< through the liquid, in AttractionLaw::capillary [rad], 0 (wetting) to pi
+};
 
 /// Every number that tunes the foam; `presets.h` fills it for a named preset and a scene may override any
 /// entry. `validate()` is called once, by FoamSolver's constructor.
@@ -40,6 +51,10 @@ struct FoamParams {
   double airDragCoefficient = 5e-8;  ///< c_vis of Eq. 10 in AirDragLaw::coefficient [kg/s], 0 to 1e3
   double addedMass = 0.5;            ///< C_M [-], 0 to 2
   double liquidAdhesion = 0.3;       ///< s_lad of Eq. 5 [N/m], 0 to 100
+  AttractionLaw attractionLaw = AttractionLaw::capillary;
+  double attraction = 4e-6;          ///< alpha of Eq. 6 in AttractionLaw::coefficient [N], 0 to 1
+  SolidSurface walls;                ///< of the domain, and of solids beyond the list
+  std::vector<SolidSurface> solids;  ///< by solid index
   double wallStiffnessFactor = 10;   ///< wall spring = factor x spring stiffness [-], 0 to 1000
   double contactDamping = 0.2;       ///< zeta of c_lap = 2 zeta sqrt(k m) [-], 0 to 5
 
@@ -54,6 +69,10 @@ struct FoamParams {
   double solverTolerance = 1e-6;  ///< relative residual of the implicit step, 1e-12 to 1e-1
   int solverIterations = 500;     ///< 1 to 100000
   std::uint64_t seed = 1;
+
+  const SolidSurface& surfaceOf(int solid) const {
+    return solid >= 0 && solid < static_cast<int>(solids.size()) ? solids[solid] : walls;
+  }
 
   /// Throws InvalidParameter naming the first field out of range.
   void validate() const;

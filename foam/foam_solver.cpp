@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "foam/attraction.h"
 #include "foam/classification.h"
 #include "foam/errors.h"
 #include "foam/integrator.h"
@@ -68,6 +69,8 @@ struct FoamSolver::Internals {
   Neighbours neighbours;
   Surroundings around;
   std::vector<NearWalls> walls;
+  Attraction attraction;
+  Vectors3 pull;
   Eigen::VectorXd phiEnd, psiEnd;
   BubbleStore next;  ///< the bubbles while they change: the caller's stay whole until the end
 
@@ -155,11 +158,13 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("sample");
   s.measure();
   clock.end("geometry");
-  correctVolumes(s.params, s.topology, dt, s.next);
+  correctVolumes(s.params, s.topology, s.around.psi, dt, s.next);
   clock.end("volume");
   weighSurface(s.around, s.topology, s.neighbours, s.next);
   clock.end("classes");
-  s.integrator.describe(s.around, s.next);
+  s.attraction.compute(s.params, s.next, s.around, s.topology, s.pull);
+  clock.end("attraction");
+  s.integrator.describe(s.around, s.pull, s.next);
   s.integrator.predict(dt);
   findNearWalls(liquid, s.around, s.next, s.integrator.reach(dt), s.walls);
   clock.end("predict");

@@ -9,7 +9,6 @@
 #include "foam/forces/buoyancy.h"
 #include "foam/forces/inertia.h"
 #include "foam/forces/strong_spring.h"
-#include "foam/forces/wall_contact.h"
 #include "foam/parallel.h"
 
 namespace spume::foam {
@@ -21,10 +20,6 @@ constexpr double kFlatGradient = 1e-6;
 /// Rounds of finding out which bubbles press on a wall: each settles nearly all, and what is left waits for
 /// the next step.
 constexpr int kWallPasses = 6;
-/// Contacts open or closed by less than this share of a radius are left as they are: far below any visible
-/// gap, and the force left over is as far below the spring's.
-constexpr double kWallResolution = 1e-6;
-
 /// Speed that counts as rest [m/s]: a micrometre in three hours.
 constexpr double kRestSpeed = 1e-10;
 
@@ -59,8 +54,6 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
     lone.viscousDrag = viscousDragFactor(params, lone.radius, lone.immersed);
   lone.liquidVelocity = around.liquidVelocity.col(i);
   setSurface(params, around.gradPhi.col(i), lone);
-  lone.wallGap = lone.radius;
-  lone.wallStiffness = params.wallStiffnessFactor * springStiffness(params, lone.radius, lone.radius);
   return lone;
 }
 
@@ -74,14 +67,16 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
 
 }  // namespace
 
-void Integrator::describe(const Surroundings& around, BubbleStore& bubbles) {
+void Integrator::describe(const Surroundings& around, const Vectors3& attraction, BubbleStore& bubbles) {
   const std::size_t n = bubbles.size();
-  lone_.resize(n), mass_.resize(n);
+  lone_.resize(n), mass_.resize(n), immersed_.resize(n);
   forEachIndex(n, [&](std::size_t i) {
     bubbles.wetness[i] = wetnessAt(params_, around.phi[i]);
     lone_[i] = loneBubble(params_, drag_, around, bubbles, i);
-    mass_[i] = lone_[i].mass;
+    lone_[i].weight += attraction[i];
+    mass_[i] = lone_[i].mass, immersed_[i] = lone_[i].immersed;
   });
+  contacts_.describe(params_, around, immersed_, bubbles);
 }
 
 void Integrator::predict(double dt) {
@@ -103,15 +98,13 @@ std::vector<double> Integrator::reach(double dt) const {
 SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& topology,
                                const Neighbours& neighbours, const std::vector<NearWalls>& walls, double dt) {
   const std::size_t n = lone_.size();
-  walls_ = walls;
   computePairForces(params_, bubbles, topology, mass_, pairForce_);
   system_.own.resize(n), impulse_.resize(n), impulseScale_.resize(n), velocity_.resize(n);
   change_.assign(n, Eigen::Vector3d::Zero());
   system_.start = neighbours.start, system_.other = neighbours.other;
   system_.block.resize(neighbours.other.size());
   forEachIndex(n, [&](std::size_t i) { assembleRow(i, topology, neighbours, dt); });
-  closed_.assign(n, 0);
-  updateContacts(dt);
+  contacts_.begin(walls, motion_, mass_, dt, system_, impulse_);
   // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
   forEachIndex(n, [&](std::size_t i) { change_[i] = lone_[i].velocity - motion_[i].velocity; });
   const SolveReport report = solveWithContacts(dt);
@@ -127,33 +120,9 @@ SolveReport Integrator::solveWithContacts(double dt) {
   for (int pass = 0; pass < kWallPasses; ++pass) {
     const SolveReport done = solver_.solve(system_, impulse_, goal, params_.solverIterations, change_);
     report = {report.iterations + done.iterations, done.residual, done.converged};
-    if (!done.converged || !updateContacts(dt)) break;
+    if (!done.converged || !contacts_.update(motion_, change_, dt, system_, impulse_)) break;
   }
   return report;
-}
-
-bool Integrator::updateContacts(double dt) {
-  const auto update = [&](std::size_t i) {
-    bool changed = false;
-    for (int k = 0; k < walls_[i].count; ++k) changed |= updateContact(i, k, dt);
-    return changed;
-  };
-  return reduceIndices(lone_.size(), false, update, std::logical_or<>());
-}
-
-bool Integrator::updateContact(std::size_t i, int k, double dt) {
-  const LoneBubble& lone = lone_[i];
-  const NearWall& wall = walls_[i].wall[k];
-  const auto bit = static_cast<std::uint8_t>(1u << k);
-  const double overlap = lone.wallGap - wall.psiAfter(motion_[i].velocity + change_[i], dt);
-  const bool closes = overlap > 0, isClosed = closed_[i] & bit;
-  if (closes == isClosed || std::abs(overlap) < kWallResolution * lone.radius) return false;
-  closed_[i] ^= bit;
-  const double signedDt = closes ? dt : -dt;
-  const double push = wallContact(lone.wallStiffness, wall.psiAfter(motion_[i].velocity, dt), lone.wallGap);
-  system_.own[i] -= signedDt * dt * wallContactSlope(lone.wallStiffness) * wall.away * wall.away.transpose();
-  impulse_[i] += signedDt * push * wall.away;
-  return true;
 }
 
 void Integrator::assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours,

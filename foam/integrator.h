@@ -9,11 +9,11 @@
 #include "foam/forces/drag.h"
 #include "foam/implicit_solve.h"
 #include "foam/lone_bubble.h"
-#include "foam/near_walls.h"
 #include "foam/neighbours.h"
 #include "foam/pair_forces.h"
 #include "foam/predictor.h"
 #include "foam/surroundings.h"
+#include "foam/wall_contacts.h"
 
 namespace spume::foam {
 
@@ -25,8 +25,9 @@ class Integrator {
  public:
   explicit Integrator(const FoamParams& params) : params_(params), drag_(params) {}
 
-  /// Each bubble's own forces and inertia from the step's start; also sets the bubbles' wetness.
-  void describe(const Surroundings& around, BubbleStore& bubbles);
+  /// Each bubble's own forces and inertia from the step's start; `attraction` [N] is added to them. Also sets
+  /// the bubbles' wetness and whether they adhere to a solid.
+  void describe(const Surroundings& around, const Vectors3& attraction, BubbleStore& bubbles);
   /// Moves each bubble alone.
   void predict(double dt);
   /// How far from its centre each bubble can meet a wall within the step [m].
@@ -44,10 +45,6 @@ class Integrator {
 
  private:
   void assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours, double dt);
-  /// Closes and opens wall contacts to suit the motion found so far; true if any changed. A closed one is a
-  /// spring in the system, so it stops a bubble however its neighbours push (model, "wall contact").
-  bool updateContacts(double dt);
-  bool updateContact(std::size_t i, int k, double dt);
   /// Solves, and again while wall contacts change.
   SolveReport solveWithContacts(double dt);
   /// Residual not worth improving [kg m/s]: round-off, or kRestSpeed of every bubble.
@@ -56,14 +53,13 @@ class Integrator {
   const FoamParams& params_;
   DragLawTable drag_;
   std::vector<LoneBubble> lone_;
-  std::vector<double> mass_;
-  std::vector<NearWalls> walls_;
+  std::vector<double> mass_, immersed_;
   std::vector<LinearMotion> motion_;
   std::vector<PairForce> pairForce_;
   BlockSystem system_;
   Vectors3 impulse_, change_, velocity_;
   std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]
-  std::vector<std::uint8_t> closed_;  ///< bit k: the spring of wall k is closed
+  WallContacts contacts_;
   ImplicitSolve solver_;
 };
 

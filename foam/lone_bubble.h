@@ -25,9 +25,6 @@ struct LoneBubble {
   double viscousDrag = 0;          ///< against the slip, for a bubble afloat [kg/s]
   Eigen::Vector3d liquidVelocity;  ///< [m/s]
 
-  double wallGap = 0;        ///< psi below which the wall pushes [m]
-  double wallStiffness = 0;  ///< [N/m]
-
   double phiAfter(const Eigen::Vector3d& v, double dt) const { return phi + dt * phiSlope * up.dot(v); }
 
   /// Buoyancy and liquid adhesion at a signed distance from the surface [N].

@@ -51,7 +51,7 @@ void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::ve
     NearWalls& known = walls[feelers.owner[f]];
     const double here = psi[f] - away.col(f).dot(feelers.offset.col(f));
     if (here < reach[feelers.owner[f]] && isNew(known, away.col(f)))
-      known.wall[known.count++] = {here, away.col(f), away.col(f).dot(velocity.col(f)), solid[f]};
+      known.wall[known.count++] = {here, away.col(f), velocity.col(f), solid[f]};
   }
 }
 
@@ -63,8 +63,7 @@ void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, cons
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Eigen::Vector3d away = around.gradPsi.col(i);
     if (away.norm() == 0) continue;
-    walls[i].wall[walls[i].count++] = {around.psi[i], away, away.dot(around.solidVelocity.col(i)),
-                                       around.solid[i]};
+    walls[i].wall[walls[i].count++] = {around.psi[i], away, around.solidVelocity.col(i), around.solid[i]};
   }
   feel(liquid, bubbles, reach, 1, walls);
   feel(liquid, bubbles, reach, 2, walls);

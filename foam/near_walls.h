@@ -13,11 +13,11 @@ namespace spume::foam {
 /// One flat piece of solid near a bubble.
 struct NearWall {
   double psi = 0;  ///< signed distance of the bubble's centre [m], > 0 in free space
-  Eigen::Vector3d away = Eigen::Vector3d::Zero();  ///< gradient of psi [-]
-  double speed = 0;                                ///< of the solid along `away` [m/s]
-  int solid = -1;                                  ///< index of the solid, -1 for a wall of the domain
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();      ///< gradient of psi [-]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the solid [m/s]
+  int solid = -1;                                      ///< index of the solid, -1 for a wall of the domain
 
-  double psiAfter(const Eigen::Vector3d& v, double dt) const { return psi + dt * (away.dot(v) - speed); }
+  double psiAfter(const Eigen::Vector3d& v, double dt) const { return psi + dt * away.dot(v - velocity); }
 };
 
 /// The walls a bubble may press on at once: more than one in an edge, a corner or a gap.
