@@ -51,6 +51,8 @@ void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearM
   closed_.assign(grip_.size(), 0), pin_.assign(grip_.size(), Pin::none);
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
+    for (int k = 0; k < walls_[i].count; ++k)
+      updateContact(i, k, motion[i].velocity, motion[i].velocity, dt, system, impulse);
     if (grip.adhesion == 0 || walls_[i].count == 0) return;
     const NearWall& wall = walls_[i].wall[0];
     // Eq. 7, -s psi grad psi, implicit: the spring rests with the bubble's centre on the wall.
@@ -60,7 +62,6 @@ void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearM
     pin_[i] = Pin::stuck;
     addHold(i, 1, motion[i].velocity, system, impulse);
   });
-  update(motion, Vectors3(grip_.size(), Vector3d::Zero()), dt, system, impulse);
 }
 
 bool WallContacts::update(const std::vector<LinearMotion>& motion, const Vectors3& change, double dt,
