@@ -51,7 +51,8 @@ struct FoamParams {
   double airDragCoefficient = 5e-8;  ///< c_vis of Eq. 10 in AirDragLaw::coefficient [kg/s], 0 to 1e3
   double addedMass = 0.5;            ///< C_M [-], 0 to 2
   double liquidAdhesion = 0.3;       ///< s_lad of Eq. 5 [N/m], 0 to 100
-  AttractionLaw attractionLaw = AttractionLaw::capillary;
+  /// between floating bubbles, and of solids for them; none costs nothing
+  AttractionLaw attractionLaw = AttractionLaw::none;
   double attraction = 4e-6;          ///< alpha of Eq. 6 in AttractionLaw::coefficient [N], 0 to 1
   SolidSurface walls;                ///< of the domain, and of solids beyond the list
   std::vector<SolidSurface> solids;  ///< by solid index

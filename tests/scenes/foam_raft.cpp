@@ -44,7 +44,7 @@ TEST(FoamRaft, SmallBubblesComeToRest) {
   constexpr double kRest = 1e-4;  // issue aim for 300 bubbles, r 0.375 to 1.25 mm, after 8 s [m/s]
   for (const Preset preset : {Preset::paper, Preset::physical})
     for (const double dt : {0.005, 0.02}) {
-      const Settled raft(preset, 300, 0.375e-3, 1.25e-3, 40e-3, dt);
+      const Settled raft(preset, 300, 0.375e-3, 1.25e-3, 30e-3, dt);
       EXPECT_LE(rmsSpeed(raft.bubbles), kRest) << dt;
       EXPECT_EQ(raft.report.bubbles, 300u);
       EXPECT_LE(raft.deepestInWall, 0.1);
