@@ -23,7 +23,8 @@ TEST(WeakAttraction, FollowsTheCapillaryLaw) {
   // accuracy, W1: f_i f_j K1(d / L_c) / (2 pi sigma L_c) at d / L_c = 0.5, 1, 2, 4; and the contact force of
   // r = 1 mm.
   constexpr double kAim = 1e-6;
-  const FoamParams params = waterParams(Preset::physical);
+  FoamParams params = waterParams(Preset::physical);
+  params.attractionLaw = AttractionLaw::capillary;
   const double length = capillaryLength(params), r = 1e-3, gas = ballVolume(r);
   EXPECT_NEAR(length, 2.727e-3, 1e-6);
   const double load = params.density * 9.81 * gas;
@@ -57,6 +58,7 @@ TEST(WeakAttraction, PaperLawShrinksWithSmallBubbles) {
 
 TEST(WeakAttraction, DrawsTwoFloatingBubblesTogether) {
   FoamParams params = makePreset(Preset::physical);
+  params.attractionLaw = AttractionLaw::capillary;
   params.bursting = false;
   BubbleStore bubbles;
   for (const double x : {-2.5e-3, 2.5e-3})
@@ -77,7 +79,8 @@ TEST(WeakAttraction, DrawsTwoFloatingBubblesTogether) {
 }
 
 TEST(SolidAttraction, WettingAttractsAndNonWettingRepels) {
-  const FoamParams params = makePreset(Preset::physical);
+  FoamParams params = makePreset(Preset::physical);
+  params.attractionLaw = AttractionLaw::capillary;
   const double length = capillaryLength(params), gas = ballVolume(1e-3),
                load = surfaceLoad(params, gas, 1e-3);
   SolidSurface solid;
@@ -100,6 +103,7 @@ TEST(SolidAttraction, PaperLawIsBoundedAtTheWall) {
 /// A sticky vertical wall x = 0 with liquid on its positive side, and a bubble that touches it.
 BubbleStore onStickyWall(double radius, double detachRadius, int steps) {
   FoamParams params = makePreset(Preset::physical);
+  params.attractionLaw = AttractionLaw::capillary;
   params.bursting = false;
   params.walls.detachRadius = detachRadius;
   StillPoolParams pool;
