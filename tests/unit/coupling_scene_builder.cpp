@@ -65,7 +65,7 @@ TEST(SceneBuilder, InflowThatNeverPoursIsClosedNotRefused) {
 TEST(SceneBuilder, PhiIsTheUnionOfTheBodies) {
   Scene scene = pouring();
   scene.liquidBodies.push_back(
-      {"drop", {ShapeKind::sphere, {0, 0, 0}, {0, 0, 0}, {0.08, 0.1, 0.08}, {0, 1, 0}, 0.01, 0}, {0, 0, 0}});
+      {"drop", {ShapeKind::sphere, {0, 0, 0}, {0, 0, 0}, {0.08, 0.1, 0.08}, {0, 1, 0}, 0.01, 0}});
   const SignedDistance phi = initialPhi(scene);
   EXPECT_NEAR(phi({0.08, 0.05, 0.08}), 0.01, kRoundOff);
   EXPECT_NEAR(phi({0.08, 0.02, 0.08}), -0.02, kRoundOff);
