@@ -27,9 +27,9 @@ struct Birth {
   BirthCause cause;
 };
 
-/// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes
-/// from the markers that left the set, the sizes from the scene's distribution, so neither depends on dx, dt
-/// or the number of markers.
+/// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes from the
+/// markers that left the set, the sizes from the scene's distribution: sizes depend on neither dx, dt nor the number of
+/// markers. The rate still does, through the speeds that markers remember (README, "Measured").
 class Entrainment {
  public:
   /// `dx` is the liquid's cell edge [m].
