@@ -1,10 +1,8 @@
 #include "fluid/extrapolation.h"
 
-#include <algorithm>
-#include <array>
-
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
+#include "fluid/sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -12,10 +10,45 @@ namespace {
 /// Weight of a known neighbour that does not lie towards the liquid, relative to one that lies straight
 /// towards it: only decides where no neighbour does (a medial line, the inside of a wall).
 constexpr float kSidewaysWeight = 1e-3f;
+/// Faces handled by one task at least.
+constexpr std::size_t kFaceGrain = 256;
 
-bool holdsLiquid(const DenseField<float>& phi, const SolidBoundary& solids, int i, int j, int k) {
-  return phi.contains(i, j, k) && phi(i, j, k) < 0 && solids.cellFraction(i, j, k) > 0;
+// The loops over a row stand alone so that nothing they read can alias what they write.
+
+/// Marks the faces of a row that touch a cell with liquid and are open, or are prescribed: 0, else
+/// kUnreached. The face k lies between the cells k - back and k; cells outside the grid have the fluid
+/// fraction 0.
+[[gnu::noinline]] void markKnownRow(const float* __restrict phi, const float* __restrict fraction,
+                                    std::ptrdiff_t back, const float* __restrict open,
+                                    const std::uint8_t* __restrict given, int count,
+                                    std::uint8_t* __restrict mark) {
+  for (int k = 0; k < count; ++k) {
+    const bool upper = (phi[k] < 0) & (fraction[k] > 0);
+    const bool lower = (phi[k - back] < 0) & (fraction[k - back] > 0);
+    const bool known = ((upper | lower) & (open[k] > 0)) | (given[k] != 0);
+    mark[k] = known ? std::uint8_t{0} : LayerList::kUnreached;
+  }
 }
+
+[[gnu::noinline]] void clearUnreachedRow(const std::uint8_t* __restrict mark, int count,
+                                         float* __restrict value) {
+  for (int k = 0; k < count; ++k) value[k] = mark[k] == LayerList::kUnreached ? 0 : value[k];
+}
+
+[[gnu::noinline]] void constrainRow(const float* __restrict open, const std::uint8_t* __restrict given,
+                                    const float* __restrict solid, int count, float* __restrict value) {
+  for (int k = 0; k < count; ++k) value[k] = (open[k] <= 0) | (given[k] != 0) ? solid[k] : value[k];
+}
+
+/// Mean of the known values around a face, weighted by how straight towards the liquid they lie.
+struct WeightedMean {
+  float sum = 0, weights = 0;
+  void add(bool known, float towards, float value) {
+    const float weight = known ? towards : 0;
+    sum += known ? weight * value : 0;
+    weights += weight;
+  }
+};
 
 }  // namespace
 
@@ -25,40 +58,35 @@ VelocityExtrapolator::VelocityExtrapolator(const GridSpec& grid) : grid_(grid) {
 
 void VelocityExtrapolator::markKnown(int axis, const DenseField<float>& phi, const SolidBoundary& solids) {
   DenseField<std::uint8_t>& marks = layers_[axis].marks();
-  const Eigen::Vector3i back = -Eigen::Vector3i::Unit(axis);
-  forEachCell(marks.size(), [&](int i, int j, int k) {
-    const bool wet = holdsLiquid(phi, solids, i, j, k) ||
-                     holdsLiquid(phi, solids, i + back.x(), j + back.y(), k + back.z());
-    const bool open = solids.open[axis](i, j, k) > 0;
-    const bool known = (wet && open) || solids.prescribed[axis](i, j, k);
-    marks(i, j, k) = known ? std::uint8_t{0} : LayerList::kUnreached;
+  forEachRow(marks.size(), [&](int i, int j) {
+    markKnownRow(&phi(i, j, 0), &solids.cellFraction(i, j, 0), phi.stride(axis), &solids.open[axis](i, j, 0),
+                 &solids.prescribed[axis](i, j, 0), marks.size().z(), &marks(i, j, 0));
   });
 }
 
 void VelocityExtrapolator::spread(int axis, int layer, const DenseField<float>& phi,
                                   DenseField<float>& component) const {
   const DenseField<std::uint8_t>& marks = layers_[axis].marks();
-  const std::array<std::ptrdiff_t, 3> phiStride{phi.stride(0), phi.stride(1), 1};
+  const std::ptrdiff_t back = phi.stride(axis);
   const float sideways = kSidewaysWeight * 2 * static_cast<float>(grid_.dx);
   const auto faces = layers_[axis].layer(layer);
-  tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t n) {
-    const std::ptrdiff_t face = faces[n];
-    const int i = static_cast<int>(face / component.stride(0)) - kGhost;
-    const int j = static_cast<int>(face % component.stride(0) / component.stride(1)) - kGhost;
-    const int k = static_cast<int>(face % component.stride(1)) - kGhost;
-    const std::uint8_t* mark = &marks(i, j, k);
-    const float* p = &phi(i, j, k);  // the face lies between p and the cell before it: twice phi is their sum
-    const std::ptrdiff_t back = phiStride[axis];
-    float sum = 0, weights = 0;
-    for (int a = 0; a < 3; ++a)
-      for (const int side : {-1, 1}) {
-        if (mark[side * marks.stride(a)] >= layer) continue;
-        const float* q = p + side * phiStride[a];
-        const float weight = std::max(p[0] + p[-back] - q[0] - q[-back], 0.0f) + sideways;
-        sum += weight * component.data()[face + side * component.stride(a)];
-        weights += weight;
-      }
-    component.data()[face] = sum / weights;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kFaceGrain), [&](const auto& range) {
+    RowCursor at(component);
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      at.seek(faces[n]);
+      const std::uint8_t* mark = &marks(at.i, at.j, at.k);
+      const float* p = &phi(at.i, at.j, at.k);
+      float* value = component.data() + faces[n];
+      const float here = p[0] + p[-back] + sideways;  // the face lies between p and p - back: twice phi
+      WeightedMean mean;
+      for (int a = 0; a < 3; ++a)
+        for (const int side : {-1, 1}) {
+          const float* q = p + side * phi.stride(a);
+          const float towards = larger(here - q[0] - q[-back], sideways);
+          mean.add(mark[side * marks.stride(a)] < layer, towards, value[side * component.stride(a)]);
+        }
+      *value = mean.sum / mean.weights;
+    }
   });
 }
 
@@ -66,12 +94,12 @@ void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBounda
                                  MacVelocity& velocity) {
   for (int axis = 0; axis < 3; ++axis) {
     markKnown(axis, phi, solids);
-    layers_[axis].grow(layers);
+    layers_[axis].grow(layers, 1);
     DenseField<float>& component = velocity[axis];
     const DenseField<std::uint8_t>& marks = layers_[axis].marks();
     for (int layer = 1; layer <= layers; ++layer) spread(axis, layer, phi, component);
-    forEachCell(marks.size(), [&](int i, int j, int k) {
-      if (marks(i, j, k) == LayerList::kUnreached) component(i, j, k) = 0;
+    forEachRow(marks.size(), [&](int i, int j) {
+      clearUnreachedRow(&marks(i, j, 0), marks.size().z(), &component(i, j, 0));
     });
   }
   fillGhostLayers(velocity);
@@ -79,10 +107,9 @@ void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBounda
 
 void constrainToSolids(const SolidBoundary& solids, MacVelocity& velocity) {
   for (int axis = 0; axis < 3; ++axis)
-    forEachCell(velocity[axis].size(), [&](int i, int j, int k) {
-      const bool closed = solids.open[axis](i, j, k) <= 0;
-      if (closed || solids.prescribed[axis](i, j, k))
-        velocity[axis](i, j, k) = solids.velocity[axis](i, j, k);
+    forEachRow(velocity[axis].size(), [&](int i, int j) {
+      constrainRow(&solids.open[axis](i, j, 0), &solids.prescribed[axis](i, j, 0),
+                   &solids.velocity[axis](i, j, 0), velocity[axis].size().z(), &velocity[axis](i, j, 0));
     });
   fillGhostLayers(velocity);
 }

@@ -1,5 +1,6 @@
 #include "fluid/layer_list.h"
 
+#include <cstring>
 #include <numeric>
 
 #include "fluid/parallel.h"
@@ -27,6 +28,17 @@ void dilateRow(const std::uint8_t* __restrict m, std::uint8_t* __restrict out, s
   }
 }
 
+/// Marks looked at together where nothing happens.
+constexpr int kWord = 8;
+
+/// Whether a word of marks holds nothing to collect: unreached points alone, or seeds alone that nobody
+/// wants.
+bool isDull(const std::uint8_t* marks, int first) {
+  std::uint64_t word;
+  std::memcpy(&word, marks, sizeof word);
+  return word == ~std::uint64_t{0} || (first > 0 && word == 0);
+}
+
 }  // namespace
 
 void LayerList::dilate(std::uint8_t layer) {
@@ -36,7 +48,7 @@ void LayerList::dilate(std::uint8_t layer) {
   mark_.swap(next_);
 }
 
-void LayerList::collect(int layers) {
+void LayerList::collect(int first, int layers) {
   const Eigen::Vector3i n = mark_.size();
   const std::size_t width = layers + 1;
   slabStart_.assign(width * n.x(), 0);  // [layer][slab]: a prefix sum over it gives every list its place
@@ -45,8 +57,11 @@ void LayerList::collect(int layers) {
     for (int j = 0; j < n.y(); ++j) {
       const std::uint8_t* m = &mark_(i, j, 0);
       const std::int32_t row = static_cast<std::int32_t>(first_ + i * strideI_ + j * strideJ_);
-      for (int k = 0; k < n.z(); ++k)
-        if (m[k] <= layers) visit(m[k], row + k);
+      for (int word = 0; word < n.z(); word += kWord) {  // past the end of a row all marks are kUnreached
+        if (isDull(m + word, first)) continue;
+        for (int k = word; k < word + kWord; ++k)
+          if (m[k] >= first && m[k] <= layers) visit(m[k], row + k);
+      }
     }
   };
   tbb::parallel_for(0, n.x(),
@@ -64,9 +79,9 @@ void LayerList::collect(int layers) {
   });
 }
 
-void LayerList::grow(int layers) {
+void LayerList::grow(int layers, int first) {
   for (int l = 1; l <= layers; ++l) dilate(static_cast<std::uint8_t>(l));
-  collect(layers);
+  collect(first, layers);
 }
 
 std::span<const std::int32_t> LayerList::layer(int l) const {

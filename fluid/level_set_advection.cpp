@@ -8,6 +8,7 @@
 #include "fluid/kinks.h"
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
+#include "fluid/paths.h"
 #include "fluid/sampling.h"
 
 namespace spume::fluid {
@@ -15,8 +16,6 @@ namespace {
 
 /// Largest max|u| dt/dx of one Runge-Kutta step of WENO5; its limit for three axes at once lies near 0.6.
 constexpr double kWenoCfl = 0.5;
-/// Cells between the zero set's furthest reach in a step and the end of the band that may stay unmoved.
-constexpr double kBandMargin = 2;
 /// Values farther from the surface than this are interpolated linearly [cells]: only those near it decide
 /// where it is, the others are made distances again from them.
 constexpr float kAccurateReach = 3;
@@ -27,46 +26,18 @@ constexpr float kWenoEpsilon = 1e-6f;
 /// at kinks.
 float sampleSurface(const FieldView& f, const DenseField<float>& phi, const DenseField<std::uint8_t>& kinks,
                     float x, float y, float z) {
-  const CellBase b = cellBase(f, x, y, z);
+  const CellBase b = innerCellBase(f, x, y, z);
   const float* p = f.corner + b.offset;
   const int si = f.strideI, sj = f.strideJ;
-  const int i = b.offset / si - kGhost, j = b.offset % si / sj - kGhost, k = b.offset % sj - kGhost;
-  const bool inside = phi.contains(i, j, k);
-  if (!inside) return sampleIndex(f, x, y, z);
+  const int i = static_cast<int>(x + kGhost) - kGhost, j = static_cast<int>(y + kGhost) - kGhost,
+            k = static_cast<int>(z + kGhost) - kGhost;
+  if (!phi.contains(i, j, k)) return interpolate(f, b);
   if (cubeIsKinked(kinks, i, j, k)) return limitedValue(p, si, sj, b.fx, b.fy, b.fz).value;
-  const auto [low, high] =
-      std::minmax({p[0], p[1], p[sj], p[sj + 1], p[si], p[si + 1], p[si + sj], p[si + sj + 1]});
+  const float low = smaller(smaller(smaller(p[0], p[1]), smaller(p[sj], p[sj + 1])),
+                            smaller(smaller(p[si], p[si + 1]), smaller(p[si + sj], p[si + sj + 1])));
+  const float high = larger(larger(larger(p[0], p[1]), larger(p[sj], p[sj + 1])),
+                            larger(larger(p[si], p[si + 1]), larger(p[si + sj], p[si + sj + 1])));
   return std::clamp(cubicValue(p, si, sj, b.fx, b.fy, b.fz).value, low, high);
-}
-
-/// Largest speed of any component on the grid [m/s].
-double maxSpeed(const MacVelocity& velocity) {
-  double largest = 0;
-  for (const DenseField<float>& component : velocity.axis) {
-    const Eigen::Vector3i n = component.size();
-    const auto slab = [&](int i) {
-      float m = 0;
-      for (int j = 0; j < n.y(); ++j)
-        for (int k = 0; k < n.z(); ++k) m = std::max(m, std::abs(component(i, j, k)));
-      return static_cast<double>(m);
-    };
-    largest =
-        std::max(largest, reduceSlabs(n.x(), 0.0, slab, [](double a, double b) { return std::max(a, b); }));
-  }
-  return largest;
-}
-
-/// Departure point in cell units of the path that ends at (x, y, z): midpoint rule, kept inside the grid.
-Velocity3f departure(const MacView& velocity, const Eigen::Vector3f& top, float cellsPerSpeed, float x,
-                     float y, float z) {
-  const auto inside = [](float value, float limit) { return std::min(std::max(value, 0.0f), limit); };
-  const float half = 0.5f * cellsPerSpeed;
-  const Velocity3f first = sampleVelocity(velocity, x, y, z);
-  const Velocity3f mid =
-      sampleVelocity(velocity, inside(x - half * first.x, top.x()), inside(y - half * first.y, top.y()),
-                     inside(z - half * first.z, top.z()));
-  return {inside(x - cellsPerSpeed * mid.x, top.x()), inside(y - cellsPerSpeed * mid.y, top.y()),
-          inside(z - cellsPerSpeed * mid.z, top.z())};
 }
 
 /// Fifth-order WENO value of a derivative from five consecutive differences, upwind first [Jiang, Peng 2000].
@@ -95,6 +66,7 @@ float upwindDerivative(const float* p, std::ptrdiff_t s, float u, float perDx) {
 
 LevelSetAdvection::LevelSetAdvection(const GridSpec& grid)
     : grid_(grid),
+      moving_(grid.cells),
       start_(grid.cells),
       next_(grid.cells),
       rate_(grid.cells),
@@ -118,24 +90,25 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
   const FieldView source(phi);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
   const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
-  const double cfl = maxSpeed(velocity) * dt / grid_.dx;
-  // Cells the surface cannot reach stay as they are; when it may cross the whole band every cell moves.
-  const bool wholeGrid = cfl * std::sqrt(3.0) + kBandMargin > kLevelSetBand;
-  const float reach = wholeGrid ? 2 * kLevelSetBand : kLevelSetBand * (1 - 1e-5f);
-  const float limit = reach * static_cast<float>(grid_.dx);
+  const float limit = kLevelSetBand * (1 - 1e-5f) * static_cast<float>(grid_.dx);
   const float nearby = kAccurateReach * static_cast<float>(grid_.dx);
+  // Cells that no path joins to the band stay as they are.
+  moving_.find(phi, [limit](float value) { return std::abs(value) < limit; });
+  moving_.grow(static_cast<int>(std::ceil(largestSpeed(velocity) * cellsPerSpeed)) + 1);
   forEachRow(grid_.cells, [&](int i, int j) {
-    for (int k = 0; k < grid_.cells.z(); ++k) {
-      const float value = phi(i, j, k);
-      if (std::abs(value) >= limit) {
-        next_(i, j, k) = value;
-        continue;
-      }
-      const Velocity3f x = departure(wind, top, cellsPerSpeed, i + 0.5f, j + 0.5f, k + 0.5f);
-      const float linear = sampleCentred(source, x.x, x.y, x.z);
-      next_(i, j, k) = std::abs(linear) > nearby
-                           ? linear
-                           : sampleSurface(source, phi, kinks_, x.x - 0.5f, x.y - 0.5f, x.z - 0.5f);
+    std::copy_n(&phi(i, j, 0), grid_.cells.z(), &next_(i, j, 0));
+    const RowSpans::Span span = moving_.cells(i, j);
+    for (int k = span.begin; k < span.end; k += kPathChunk) {
+      PathPoints centre, startWind, from;
+      cellStarts(velocity, i, j, k, centre, startWind);
+      tracePaths(wind, top, -cellsPerSpeed, centre, startWind, from);
+      alignas(64) float linear[kPathChunk];
+      sampleRun(source, from, linear);
+      float* out = &next_(i, j, k);
+      for (int n = 0; n < std::min(kPathChunk, span.end - k); ++n)
+        out[n] = std::abs(linear[n]) > nearby ? linear[n]
+                                              : sampleSurface(source, phi, kinks_, from.x[n] - 0.5f,
+                                                              from.y[n] - 0.5f, from.z[n] - 0.5f);
     }
   });
   phi.swap(next_);
@@ -183,7 +156,7 @@ void LevelSetAdvection::combine(DenseField<float>& phi, float ofStart, float dt)
 
 void LevelSetAdvection::weno5(const MacVelocity& velocity, double dt, DenseField<float>& phi) {
   centreVelocity(velocity);
-  const double cfl = maxSpeed(velocity) * dt / grid_.dx;
+  const double cfl = largestSpeed(velocity) * dt / grid_.dx;
   const int steps = std::max(1, static_cast<int>(std::ceil(cfl / kWenoCfl)));
   const float h = static_cast<float>(dt / steps);
   fillGhostLayers(phi);

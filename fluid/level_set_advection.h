@@ -3,6 +3,7 @@
 #include "fluid/dense_field.h"
 #include "fluid/fluid_params.h"
 #include "fluid/grid_spec.h"
+#include "fluid/row_spans.h"
 #include "fluid/solid_boundary.h"
 
 namespace spume::fluid {
@@ -13,7 +14,8 @@ class LevelSetAdvection {
   explicit LevelSetAdvection(const GridSpec& grid);
 
   /// Advances phi by dt [s] with the velocity frozen. Reads and refills the ghosts of phi; those of
-  /// `velocity` must be filled. Cells beyond the band are left as they are. The level set inside solids is
+  /// `velocity` must be filled. Cells that the
+  /// band cannot reach are left as they are. The level set inside solids is
   /// not moved: follow with SolidExtension::apply.
   void advance(LevelSetTransport transport, const MacVelocity& velocity, double dt, DenseField<float>& phi);
 
@@ -30,6 +32,7 @@ class LevelSetAdvection {
   void combine(DenseField<float>& phi, float ofStart, float dt) const;
 
   GridSpec grid_;
+  RowSpans moving_;  ///< cells the band may reach in this step
   DenseField<float> start_, next_, rate_, centreU_, centreV_, centreW_;
   DenseField<std::uint8_t> kinks_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace spume::fluid {
@@ -17,13 +18,27 @@ constexpr float kLeastAllowed = 0.5f, kMostAllowed = 1.5f;  // squared gradient:
 constexpr float kLeastWanted = 0.6f, kMostWanted = 1.4f;    // with room for what the neighbours do next
 constexpr int kTries = 20;  // a voxel moves by at most kTries / kTriesPerVoxel
 constexpr int kTriesPerVoxel = 20;
+constexpr int kStencilReach = 3;   // voxels a WENO stencil reads along each axis
 constexpr int kMendingPasses = 4;  // mending one voxel may break its neighbour; 3 passes are usual
 constexpr int kPasses = 40;  // then those left, features finer than the grid, are smoothed between passes
+
+const Coord kSteps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 bool offends(Stencil& stencil) {
   if (!stencil.zeroCrossing()) return false;
   const float gradient = stencil.normSqGrad();
   return !(gradient >= kLeastAllowed && gradient <= kMostAllowed);
+}
+
+/// Whether the surface crosses between a voxel and one of its six neighbours: what the stencil says too,
+/// without reading all of it.
+bool isCrossed(const openvdb::FloatGrid::ConstAccessor& surface, const Coord& voxel, float own) {
+  for (const Coord& step : kSteps)
+    for (const Coord& neighbour : {voxel + step, voxel - step}) {
+      const float other = surface.getValue(neighbour);
+      if (own > 0 ? other < 0 : other > 0) return true;
+    }
+  return false;
 }
 
 /// Coordinates of the offending voxels in the order of the tree.
@@ -32,7 +47,9 @@ std::vector<Coord> offendersOf(const openvdb::FloatGrid& surface) {
   std::vector<std::vector<Coord>> found(leaves.leafCount());
   leaves.foreach ([&](const auto& leaf, std::size_t n) {
     Stencil stencil(surface);
+    const auto accessor = surface.getConstAccessor();
     for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel) {
+      if (!isCrossed(accessor, voxel.getCoord(), *voxel)) continue;
       stencil.moveTo(voxel);
       if (offends(stencil)) found[n].push_back(voxel.getCoord());
     }
@@ -40,6 +57,41 @@ std::vector<Coord> offendersOf(const openvdb::FloatGrid& surface) {
   std::vector<Coord> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
   return all;
+}
+
+/// The order in which the tree keeps its voxels: by root entry, inner node, leaf, place in the leaf.
+bool comesBefore(const Coord& a, const Coord& b) {
+  using Tree = openvdb::FloatTree;
+  constexpr openvdb::Index kRoot = Tree::RootNodeType::ChildNodeType::TOTAL,
+                           kInner = Tree::RootNodeType::ChildNodeType::ChildNodeType::TOTAL,
+                           kLeaf = Tree::LeafNodeType::TOTAL;
+  for (const openvdb::Index level : {kRoot, kInner, kLeaf})
+    if ((a >> level) != (b >> level)) return (a >> level) < (b >> level);
+  return a < b;
+}
+
+/// The offenders among `suspects` and the voxels whose stencils read one of them, in the order of the tree.
+std::vector<Coord> offendersNear(const openvdb::FloatGrid& surface, const std::vector<Coord>& suspects) {
+  std::vector<Coord> near;
+  for (const Coord& voxel : suspects) {
+    near.push_back(voxel);
+    for (const Coord& step : kSteps)
+      for (int n = 1; n <= kStencilReach; ++n) {
+        const Coord reach(n * step.x(), n * step.y(), n * step.z());
+        near.push_back(voxel + reach);
+        near.push_back(voxel - reach);
+      }
+  }
+  std::sort(near.begin(), near.end(), comesBefore);
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  Stencil stencil(surface);
+  const auto accessor = surface.getConstAccessor();
+  std::erase_if(near, [&](const Coord& voxel) {
+    if (!accessor.isValueOn(voxel)) return true;
+    stencil.moveTo(voxel);
+    return !offends(stencil);
+  });
+  return near;
 }
 
 /// The voxels of a surface that is being repaired, with the stencil round one of them.
@@ -56,6 +108,7 @@ class Repair {
     if (!offends(stencil_)) return;  // a neighbour's change has mended it
     const float own = accessor_.getValue(voxel);
     accessor_.setValueOnly(voxel, suitableValue(voxel, own).value_or(own));
+    changed_.push_back(voxel);
   }
 
   /// Moves a voxel and its neighbours half way to the mean of theirs.
@@ -64,15 +117,17 @@ class Repair {
     for (const Coord& step : kSteps) smooth(voxel + step), smooth(voxel - step);
   }
 
- private:
-  static inline const Coord kSteps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  /// Voxels tried or changed since the last call.
+  std::vector<Coord> takeChanged() { return std::exchange(changed_, {}); }
 
+ private:
   void smooth(const Coord& voxel) {
     float sum = 0;
     for (const Coord& step : kSteps)
       sum += accessor_.getValue(voxel + step) + accessor_.getValue(voxel - step);
-    if (accessor_.isValueOn(voxel))
-      accessor_.setValueOnly(voxel, 0.5f * accessor_.getValue(voxel) + sum / 12);
+    if (!accessor_.isValueOn(voxel)) return;
+    accessor_.setValueOnly(voxel, 0.5f * accessor_.getValue(voxel) + sum / 12);
+    changed_.push_back(voxel);
   }
   std::optional<float> suitableValue(const Coord& voxel, float own) {
     std::optional<float> otherSign;
@@ -97,6 +152,7 @@ class Repair {
   Stencil stencil_;
   openvdb::FloatGrid::Accessor accessor_;
   float dx_;
+  std::vector<Coord> changed_;
 };
 
 }  // namespace
@@ -107,7 +163,9 @@ std::size_t repairLevelSet(openvdb::FloatGrid& surface) {
   for (int pass = 0; pass < kPasses && !offenders.empty(); ++pass) {
     const bool stuck = pass >= kMendingPasses && pass % 2;
     for (const Coord& voxel : offenders) stuck ? repair.smoothAround(voxel) : repair.mend(voxel);
-    offenders = offendersOf(surface);
+    std::vector<Coord> suspects = repair.takeChanged();
+    suspects.insert(suspects.end(), offenders.begin(), offenders.end());
+    offenders = offendersNear(surface, suspects);
   }
   return offenders.size();
 }

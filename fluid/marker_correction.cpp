@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "fluid/level_set.h"
-#include "fluid/marker_chunks.h"
-#include "fluid/sampling.h"
+#include "fluid/marker_sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -15,10 +14,9 @@ void flagEscaped(float dx, const DenseField<float>& phi, MarkerSign sign, Marker
   const FieldView field(phi);
   const float toCells = static_cast<float>(static_cast<int>(sign)) / dx;
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) {
-      const float depth = toCells * sampleCentred(field, markers.x[n], markers.y[n], markers.z[n]);
-      markers.escaped[n] = depth < -markers.radius[n];
-    }
+    MarkerValues values;
+    sampleAtMarkers(field, markers, first, last, values);
+    flagEscapedMarkers(values, toCells, first, last, markers);
   });
 }
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid/marker_chunks.h"
-#include "fluid/sampling.h"
+#include "fluid/marker_sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -15,6 +14,10 @@ namespace {
 constexpr float kWallGap = 0.1f;
 /// Deeper than this behind a wall a marker is removed [cells]: a wall swept over it.
 constexpr float kLostDepth = 1;
+/// A marker in a cell whose centre is further from walls than this is clear of them [cells]: interpolation
+/// looks a space diagonal away.
+constexpr float kClearDistance = 2;
+static_assert(kClearDistance > kWallGap + 1.74f);
 
 /// Where a marker may be along one axis [cells]: a closed side keeps it inside, an open one lets it go.
 struct Range {
@@ -30,26 +33,57 @@ std::array<Range, 3> freeRange(const MarkerScene& scene) {
   return range;
 }
 
-void moveChunk(const MacView& wind, const std::array<Range, 3>& range, float cellsPerSpeed,
-               MarkerSet& markers, std::size_t first, std::size_t last) {
-  float *x = markers.x.data(), *y = markers.y.data(), *z = markers.z.data();
-  const auto within = [](float value, Range r) { return std::min(std::max(value, r.low), r.high); };
-  const Range rx = range[0], ry = range[1], rz = range[2];
-  const float half = 0.5f * cellsPerSpeed;
-  alignas(64) std::array<float, kMarkerChunk> mx, my, mz;
-  const std::size_t count = last - first;
-  x += first, y += first, z += first;
-  for (std::size_t n = 0; n < count; ++n) {
-    const Velocity3f u = sampleVelocity(wind, x[n], y[n], z[n]);
-    mx[n] = x[n] + half * u.x;
-    my[n] = y[n] + half * u.y;
-    mz[n] = z[n] + half * u.z;
+// The loops over the markers of a chunk stand alone so that nothing they read can alias what they write, and
+// vectorise into gathers.
+
+/// One stage of a path: out = from + time u(at). The wind outside the grid is that at its nearest side.
+void carry(const MacView& wind, const Eigen::Vector3f& top, float time, int count,
+           const float* __restrict fromX, const float* __restrict fromY, const float* __restrict fromZ,
+           const float* __restrict atX, const float* __restrict atY, const float* __restrict atZ,
+           float* __restrict outX, float* __restrict outY, float* __restrict outZ) {
+  const float topX = top.x(), topY = top.y(), topZ = top.z();
+  for (int n = 0; n < count; ++n) {
+    const Velocity3f u = sampleInnerVelocity(wind, keptInside(atX[n], topX), keptInside(atY[n], topY),
+                                             keptInside(atZ[n], topZ));
+    outX[n] = fromX[n] + time * u.x;
+    outY[n] = fromY[n] + time * u.y;
+    outZ[n] = fromZ[n] + time * u.z;
   }
-  for (std::size_t n = 0; n < count; ++n) {
-    const Velocity3f u = sampleVelocity(wind, mx[n], my[n], mz[n]);
-    x[n] = within(x[n] + cellsPerSpeed * u.x, rx);
-    y[n] = within(y[n] + cellsPerSpeed * u.y, ry);
-    z[n] = within(z[n] + cellsPerSpeed * u.z, rz);
+}
+
+void keepWithin(Range range, int count, const float* __restrict from, float* __restrict to) {
+  for (int n = 0; n < count; ++n) {
+    const float low = from[n] > range.low ? from[n] : range.low;
+    to[n] = low < range.high ? low : range.high;
+  }
+}
+
+void moveChunk(const MacView& wind, const Eigen::Vector3f& top, const std::array<Range, 3>& range,
+               float cellsPerSpeed, MarkerSet& markers, std::size_t first, std::size_t last) {
+  float *x = markers.x.data() + first, *y = markers.y.data() + first, *z = markers.z.data() + first;
+  const int count = static_cast<int>(last - first);
+  MarkerValues middleX, middleY, middleZ, endX, endY, endZ;
+  carry(wind, top, 0.5f * cellsPerSpeed, count, x, y, z, x, y, z, middleX.data(), middleY.data(),
+        middleZ.data());
+  carry(wind, top, cellsPerSpeed, count, x, y, z, middleX.data(), middleY.data(), middleZ.data(), endX.data(),
+        endY.data(), endZ.data());
+  keepWithin(range[0], count, endX.data(), x);
+  keepWithin(range[1], count, endY.data(), y);
+  keepWithin(range[2], count, endZ.data(), z);
+}
+
+/// Notes which markers may be outside the grid or beside a wall: 1, else 0.
+void findDoubtful(const FieldView& psi, const Eigen::Vector3f& top, float clear, int count,
+                  const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                  std::int32_t* __restrict doubtful) {
+  const float topX = top.x(), topY = top.y(), topZ = top.z();
+  for (int n = 0; n < count; ++n) {
+    const float ix = keptInside(x[n], topX), iy = keptInside(y[n], topY), iz = keptInside(z[n], topZ);
+    const int i = static_cast<int>(ix), j = static_cast<int>(iy), k = static_cast<int>(iz);
+    const int cell = (i + kGhost) * psi.strideI + (j + kGhost) * psi.strideJ + k + kGhost;
+    const float moved = std::abs(ix - x[n]) + std::abs(iy - y[n]) + std::abs(iz - z[n]);
+    const float distance = psi.corner[cell];
+    doubtful[n] = moved <= 0 ? (distance >= clear ? 0 : 1) : 1;
   }
 }
 
@@ -88,12 +122,31 @@ void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double
   const MacView wind(velocity);
   const FieldView psi(scene.solids.psi);
   const std::array<Range, 3> range = freeRange(scene);
+  const Eigen::Vector3f top = scene.grid.cells.cast<float>();
   const float cellsPerSpeed = static_cast<float>(dt / scene.grid.dx);
+  const float clear = kClearDistance * static_cast<float>(scene.grid.dx);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
-    moveChunk(wind, range, cellsPerSpeed, markers, first, last);
-    for (std::size_t n = first; n < last; ++n) keepFree(scene, psi, markers, n);
+    moveChunk(wind, top, range, cellsPerSpeed, markers, first, last);
+    MarkerCells doubtful;
+    findDoubtful(psi, top, clear, static_cast<int>(last - first), markers.x.data() + first,
+                 markers.y.data() + first, markers.z.data() + first, doubtful.data());
+    for (std::size_t n = first; n < last; ++n)
+      if (doubtful[n - first]) keepFree(scene, psi, markers, n);
   });
 }
+
+namespace {
+
+void boundRadii(float toSide, float low, float high, int count, const float* __restrict value,
+                float* __restrict radius) {
+  for (int n = 0; n < count; ++n) {
+    const float depth = toSide * value[n];
+    const float least = depth > low ? depth : low;
+    radius[n] = least < high ? least : high;
+  }
+}
+
+}  // namespace
 
 void adjustRadii(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
                  MarkerSet& markers) {
@@ -102,11 +155,11 @@ void adjustRadii(const MarkerScene& scene, const DenseField<float>& phi, MarkerS
   const float low = static_cast<float>(scene.params.markerRadiusMin);
   const float high = static_cast<float>(scene.params.markerRadiusMax);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) {
-      const float depth = toCells * sampleCentred(field, markers.x[n], markers.y[n], markers.z[n]);
-      markers.radius[n] = std::min(std::max(depth, low), high);
-      markers.escaped[n] = depth < -markers.radius[n];
-    }
+    MarkerValues values;
+    sampleAtMarkers(field, markers, first, last, values);
+    boundRadii(toCells, low, high, static_cast<int>(last - first), values.data(),
+               markers.radius.data() + first);
+    flagEscapedMarkers(values, toCells, first, last, markers);
   });
 }
 

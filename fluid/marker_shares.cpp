@@ -1,41 +1,39 @@
 #include "fluid/marker_shares.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "fluid/level_set.h"
-#include "fluid/marker_chunks.h"
+#include "fluid/marker_sampling.h"
 #include "fluid/parallel.h"
-#include "fluid/sampling.h"
 
 namespace spume::fluid {
 namespace {
 
-Eigen::Vector3i cellOf(const MarkerSet& markers, std::size_t n, const Eigen::Vector3i& cells) {
-  const Eigen::Vector3i cell =
-      Eigen::Vector3f(markers.x[n], markers.y[n], markers.z[n]).array().floor().cast<int>();
-  return cell.cwiseMax(0).cwiseMin(cells - Eigen::Vector3i::Ones());
-}
-
-/// Calls visit(n) for the markers on their own side of the surface, in parallel.
-template <typename Visit>
-void forEachAtHome(const DenseField<float>& phi, MarkerSign sign, const MarkerSet& markers,
-                   const Visit& visit) {
-  const FieldView field(phi);
-  const float side = static_cast<float>(static_cast<int>(sign));
-  forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n)
-      if (side * sampleCentred(field, markers.x[n], markers.y[n], markers.z[n]) > 0) visit(n);
-  });
+/// The cell of every marker whose value says that it is on its own side, else -1.
+void keepAtHome(float side, int count, const float* __restrict value, const std::int32_t* __restrict cell,
+                std::int32_t* __restrict home) {
+  for (int n = 0; n < count; ++n) home[n] = side * value[n] > 0 ? cell[n] : -1;
 }
 
 }  // namespace
 
-void MarkerShares::countAtHome(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
-                               const MarkerSet& markers) {
-  count_.fill(0);
-  forEachAtHome(phi, sign, markers, [&](std::size_t n) {
-    std::atomic_ref<std::int32_t>(count_(cellOf(markers, n, scene.grid.cells)))
-        .fetch_add(1, std::memory_order_relaxed);
+/// Finds the cells of the markers on their own side and counts them there.
+void MarkerShares::findHomes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
+                             const MarkerSet& markers) {
+  const FieldView field(phi);
+  const float side = static_cast<float>(static_cast<int>(sign));
+  home_.resize(markers.size());
+  forEachRow(scene.grid.cells, [&](int i, int j) { std::fill_n(&count_(i, j, 0), scene.grid.cells.z(), 0); });
+  forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
+    MarkerValues values;
+    MarkerCells cells;
+    sampleAtMarkers(field, markers, first, last, values);
+    findMarkerCells(count_, markers, first, last, cells);
+    keepAtHome(side, static_cast<int>(last - first), values.data(), cells.data(), home_.data() + first);
+    for (std::size_t n = first; n < last; ++n)
+      if (home_[n] >= 0)
+        std::atomic_ref<std::int32_t>(count_.data()[home_[n]]).fetch_add(1, std::memory_order_relaxed);
   });
 }
 
@@ -61,10 +59,13 @@ double MarkerShares::splitCells(const MarkerScene& scene, const DenseField<float
 
 double MarkerShares::refresh(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
                              MarkerSet& markers) {
-  countAtHome(scene, phi, sign, markers);
+  findHomes(scene, phi, sign, markers);
   const double total = splitCells(scene, phi, sign);
-  forEachAtHome(phi, sign, markers,
-                [&](std::size_t n) { markers.gas[n] = share_(cellOf(markers, n, scene.grid.cells)); });
+  static_assert(sizeof(share_.data()[0]) == sizeof(count_.data()[0]), "both fields have the same strides");
+  forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n)
+      if (home_[n] >= 0) markers.gas[n] = share_.data()[home_[n]];
+  });
   return total;
 }
 

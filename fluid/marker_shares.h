@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "fluid/dense_field.h"
 #include "fluid/marker_particles.h"
@@ -19,10 +20,12 @@ class MarkerShares {
   double refresh(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign, MarkerSet& markers);
 
  private:
-  void countAtHome(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
-                   const MarkerSet& markers);
+  void findHomes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
+                 const MarkerSet& markers);
   double splitCells(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign);
 
+  std::vector<std::int32_t>
+      home_;  ///< offset of each marker's cell in the fields below, -1 if not on its side
   DenseField<std::int32_t> count_;  ///< markers on their own side per cell
   DenseField<float> share_;         ///< volume per such marker [m^3]
 };

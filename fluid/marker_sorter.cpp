@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "fluid/marker_chunks.h"
 #include "fluid/marker_particles.h"
 #include "fluid/parallel.h"
 
@@ -12,11 +14,24 @@ std::int32_t MarkerSorter::cellNumber(float x, float y, float z) const {
 }
 
 void MarkerSorter::compact(MarkerSet& markers) {
-  order_.clear();
   const std::size_t count = markers.size();
-  for (std::size_t n = 0; n < count; ++n)
-    if (!std::isnan(markers.x[n])) order_.push_back(static_cast<std::int32_t>(n));
-  if (order_.size() < count) permute(markers);
+  const std::size_t chunks = (count + kMarkerChunk - 1) / kMarkerChunk;
+  next_.assign(chunks + 1, 0);  // markers kept in each chunk, then the place of its first one
+  const float* x = markers.x.data();
+  forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
+    std::int32_t kept = 0;
+    for (std::size_t n = first; n < last; ++n) kept += std::isnan(x[n]) ? 0 : 1;
+    next_[first / kMarkerChunk] = kept;
+  });
+  std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), std::int32_t{0});
+  if (static_cast<std::size_t>(next_.back()) == count) return;
+  order_.resize(next_.back());
+  forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
+    std::int32_t* place = order_.data() + next_[first / kMarkerChunk];
+    for (std::size_t n = first; n < last; ++n)
+      if (!std::isnan(x[n])) *place++ = static_cast<std::int32_t>(n);
+  });
+  permute(markers);
 }
 
 void MarkerSorter::sort(MarkerSet& markers) {
@@ -42,7 +57,9 @@ void MarkerSorter::sort(MarkerSet& markers) {
 void MarkerSorter::permute(MarkerSet& markers) {
   const auto reorder = [&](auto& column, auto& scratch) {
     scratch.resize(order_.size());
-    tbb::parallel_for(std::size_t{0}, order_.size(), [&](std::size_t n) { scratch[n] = column[order_[n]]; });
+    forEachMarkerChunk(order_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) scratch[n] = column[order_[n]];
+    });
     column.swap(scratch);
   };
   for (std::vector<float>* column :

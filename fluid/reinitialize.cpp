@@ -30,6 +30,8 @@ constexpr float kMiss = 0.02f;
 /// cell may hear of its nearest point's neighbour only. Beside a kink half of it.
 constexpr float kPatch = 1.5f;
 constexpr float kKinkPatch = 0.75f;
+/// Cells of a layer handled by one task at least.
+constexpr std::size_t kCellGrain = 256;
 
 /// The crossing nearest to a cell along the grid lines through it.
 struct Crossing {
@@ -138,12 +140,6 @@ void barRow(const float* __restrict psi, std::uint8_t* __restrict mark, int coun
 Reinitializer::Reinitializer(const GridSpec& grid)
     : grid_(grid), layers_(grid.cells), kinks_(grid.cells), seedOf_(grid.cells, -1) {}
 
-Eigen::Vector3i Reinitializer::cellAt(std::ptrdiff_t offset) const {
-  const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
-  return {static_cast<int>(offset / si) - kGhost, static_cast<int>(offset % si / sj) - kGhost,
-          static_cast<int>(offset % sj) - kGhost};
-}
-
 void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBoundary* solids) {
   DenseField<std::uint8_t>& marks = layers_.marks();
   const int nz = grid_.cells.z();
@@ -153,10 +149,9 @@ void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBound
   });
 }
 
-Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, std::ptrdiff_t offset) const {
-  const Eigen::Vector3i cell = cellAt(offset);
+Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const {
   const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
-  const float* p = phi.data() + offset;
+  const float* p = &phi(cell);
   const Eigen::Vector3f centre = cell.cast<float>();
   const Crossing crossing = nearestCrossing(p, {si, sj, 1});
   const ClosestPoint y = closestPoint({phi, kinks_, cell}, crossing.distance);
@@ -187,35 +182,56 @@ Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, std::p
 void Reinitializer::plantSeeds(const DenseField<float>& phi) {
   const auto cells = layers_.layer(0);
   seeds_.resize(cells.size());
-  seedOf_.fill(-1);
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
-    seeds_[n] = findSeed(phi, cells[n]);
-    seedOf_.data()[cells[n]] = static_cast<std::int32_t>(n);
+  places_.resize(cells.size());
+  forEachRow(grid_.cells, [&](int i, int j) { std::fill_n(&seedOf_(i, j, 0), grid_.cells.z(), -1); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size()), [&](const auto& range) {
+    RowCursor at(seedOf_);
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      at.seek(cells[n]);
+      seeds_[n] = findSeed(phi, {at.i, at.j, at.k});
+      places_[n] = {seeds_[n].x, seeds_[n].y, seeds_[n].z};
+      seedOf_.data()[cells[n]] = static_cast<std::int32_t>(n);
+    }
   });
 }
 
-void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
+/// The nearest of the seeds that the neighbours of a cell know and, unless `outwardsOnly`, the cell itself.
+std::int32_t Reinitializer::nearestSeed(const RowCursor& at, std::int32_t offset, bool outwardsOnly) const {
   const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
-  const std::array<std::ptrdiff_t, 6> around{-si, si, -sj, sj, -1, 1};
+  const std::int32_t* seedOf = seedOf_.data() + offset;
+  const float x = static_cast<float>(at.i), y = static_cast<float>(at.j), z = static_cast<float>(at.k);
+  std::int32_t best = -1;
+  float nearest = std::numeric_limits<float>::max();
+  const auto offer = [&](std::int32_t seed) {
+    if (seed < 0 || seed == best) return;
+    const Place& s = places_[seed];
+    const float square = (x - s.x) * (x - s.x) + (y - s.y) * (y - s.y) + (z - s.z) * (z - s.z);
+    const bool nearer = square < nearest || (square == nearest && seed < best);
+    nearest = nearer ? square : nearest;
+    best = nearer ? seed : best;
+  };
+  if (!outwardsOnly) offer(*seedOf);
+  for (const std::ptrdiff_t step : {-si, si, -sj, sj, std::ptrdiff_t{-1}, std::ptrdiff_t{1}})
+    offer(seedOf[step]);
+  return best;
+}
+
+void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
   const auto cells = layers_.layer(layer);
   update_.resize(std::max(update_.size(), cells.size()));
-  std::int32_t* seedOf = seedOf_.data();
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
-    const Eigen::Vector3f x = cellAt(cells[n]).cast<float>();
-    std::int32_t best = -1;
-    float nearest = std::numeric_limits<float>::max();
-    const auto offer = [&](std::int32_t seed) {
-      if (seed < 0) return;
-      const Seed& s = seeds_[seed];
-      const float square =
-          (x.x() - s.x) * (x.x() - s.x) + (x.y() - s.y) * (x.y() - s.y) + (x.z() - s.z) * (x.z() - s.z);
-      if (square < nearest || (square == nearest && seed < best)) nearest = square, best = seed;
-    };
-    if (!outwardsOnly) offer(seedOf[cells[n]]);
-    for (const std::ptrdiff_t step : around) offer(seedOf[cells[n] + step]);
-    update_[n] = best;
+  const auto forEachPart = [&](const auto& body) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), kCellGrain), body);
+  };
+  forEachPart([&](const auto& range) {
+    RowCursor at(seedOf_);
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      at.seek(cells[n]);
+      update_[n] = nearestSeed(at, cells[n], outwardsOnly);
+    }
   });
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) { seedOf[cells[n]] = update_[n]; });
+  forEachPart([&](const auto& range) {
+    for (std::size_t n = range.begin(); n < range.end(); ++n) seedOf_.data()[cells[n]] = update_[n];
+  });
 }
 
 void Reinitializer::measure(DenseField<float>& phi) const {

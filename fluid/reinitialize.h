@@ -31,17 +31,22 @@ class Reinitializer {
     float xx, yy, zz, xy, yz, zx;  ///< second derivatives of the distance [1/cells]
     float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
   };
-  Seed findSeed(const DenseField<float>& phi, std::ptrdiff_t offset) const;
+  Seed findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
   void markInterface(const DenseField<float>& phi, const SolidBoundary* solids);
   void plantSeeds(const DenseField<float>& phi);
   void spreadLayer(int layer, bool outwardsOnly);
   void measure(DenseField<float>& phi) const;
-  Eigen::Vector3i cellAt(std::ptrdiff_t offset) const;
+  std::int32_t nearestSeed(const RowCursor& at, std::int32_t offset, bool outwardsOnly) const;
 
   GridSpec grid_;
   LayerList layers_;
   DenseField<std::uint8_t> kinks_;
+  /// Where a seed lies, apart from the rest of it: what the search for the nearest one reads.
+  struct alignas(16) Place {
+    float x, y, z;
+  };
   std::vector<Seed> seeds_;          ///< of the cells of layer 0, in their order
+  std::vector<Place> places_;        ///< of the same
   DenseField<std::int32_t> seedOf_;  ///< nearest seed known to a cell, -1 for none
   std::vector<std::int32_t> update_;
 };

@@ -41,11 +41,26 @@ inline CellBase cellBase(const FieldView& f, float x, float y, float z) {
           zs - static_cast<float>(k)};
 }
 
+/// The same for a point that lies within the window and less than kGhost cells outside its low faces, one
+/// less outside its high ones: no clamps, for the inner loops.
+inline CellBase innerCellBase(const FieldView& f, float x, float y, float z) {
+  const float xs = x + kGhost, ys = y + kGhost, zs = z + kGhost;
+  const int i = static_cast<int>(xs), j = static_cast<int>(ys), k = static_cast<int>(zs);
+  return {i * f.strideI + j * f.strideJ + k, xs - static_cast<float>(i), ys - static_cast<float>(j),
+          zs - static_cast<float>(k)};
+}
+
 inline float lerp(float a, float b, float t) { return a + t * (b - a); }
 
-/// Trilinear value at a point in index units.
-inline float sampleIndex(const FieldView& f, float x, float y, float z) {
-  const CellBase b = cellBase(f, x, y, z);
+// Without std::min's references, so that loops vectorise.
+inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) { return a > b ? a : b; }
+
+/// `value` kept within [0, limit]; 0 if it is not a number.
+inline float keptInside(float value, float limit) { return smaller(larger(value, 0), limit); }
+
+/// Trilinear value in a cube.
+inline float interpolate(const FieldView& f, const CellBase& b) {
   const float* p = f.corner;
   const int o = b.offset, si = f.strideI, sj = f.strideJ;
   const float c00 = lerp(p[o], p[o + 1], b.fz);
@@ -53,6 +68,15 @@ inline float sampleIndex(const FieldView& f, float x, float y, float z) {
   const float c10 = lerp(p[o + si], p[o + si + 1], b.fz);
   const float c11 = lerp(p[o + si + sj], p[o + si + sj + 1], b.fz);
   return lerp(lerp(c00, c01, b.fy), lerp(c10, c11, b.fy), b.fx);
+}
+
+/// Trilinear value at a point in index units.
+inline float sampleIndex(const FieldView& f, float x, float y, float z) {
+  return interpolate(f, cellBase(f, x, y, z));
+}
+/// The same within the limits of innerCellBase.
+inline float sampleInner(const FieldView& f, float x, float y, float z) {
+  return interpolate(f, innerCellBase(f, x, y, z));
 }
 
 /// Trilinear value of a cell-centred field at a position in cell units.
@@ -91,6 +115,11 @@ struct Velocity3f {
 inline Velocity3f sampleVelocity(const MacView& m, float x, float y, float z) {
   return {sampleIndex(m.u, x, y - 0.5f, z - 0.5f), sampleIndex(m.v, x - 0.5f, y, z - 0.5f),
           sampleIndex(m.w, x - 0.5f, y - 0.5f, z)};
+}
+/// The same at a position inside the grid or less than 3 cells outside.
+inline Velocity3f sampleInnerVelocity(const MacView& m, float x, float y, float z) {
+  return {sampleInner(m.u, x, y - 0.5f, z - 0.5f), sampleInner(m.v, x - 0.5f, y, z - 0.5f),
+          sampleInner(m.w, x - 0.5f, y - 0.5f, z)};
 }
 
 }  // namespace spume::fluid

@@ -7,6 +7,7 @@
 
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
+#include "fluid/paths.h"
 #include "fluid/sampling.h"
 
 namespace spume::fluid {
@@ -15,179 +16,119 @@ namespace {
 /// Faces within this many cells of the liquid are moved: the surface may advance there before the next
 /// extrapolation, and the correcting pass reads the forward values one step further out.
 constexpr float kReach = 2;
-/// Points traced together: positions stay in the first-level cache and the loops over them vectorise.
-/// One register of the widest kind, so that a run that only grazes the liquid drags few dry faces along.
-constexpr int kChunk = 16;
-
-/// Positions of a run of points along z [cells].
-struct Points {
-  alignas(64) float x[kChunk], y[kChunk], z[kChunk];
-};
-
-float inside(float value, float limit) {
-  const float low = value > 0 ? value : 0;
-  return low < limit ? low : limit;
-}
-
-/// One stage of a path: out = from + time u(at), kept inside the grid. Plain columns, so that it vectorises.
-void moveAlong(const MacView& wind, const Eigen::Vector3f& top, float time, int count, const Points& from,
-               const Points& at, Points& out) {
-  const float topX = top.x(), topY = top.y(), topZ = top.z();
-  const float *ax = at.x, *ay = at.y, *az = at.z, *fx = from.x, *fy = from.y, *fz = from.z;
-  float* __restrict ox = out.x, * __restrict oy = out.y, * __restrict oz = out.z;
-#pragma GCC ivdep
-  for (int n = 0; n < count; ++n) {
-    const Velocity3f u = sampleVelocity(wind, ax[n], ay[n], az[n]);
-    ox[n] = inside(fx[n] + time * u.x, topX);
-    oy[n] = inside(fy[n] + time * u.y, topY);
-    oz[n] = inside(fz[n] + time * u.z, topZ);
-  }
-}
-
-/// Moves `count` points along the wind for a time of `cellsPerSpeed` dx (negative: back) by the midpoint
-/// rule.
-void trace(const MacView& wind, const Eigen::Vector3f& top, float cellsPerSpeed, int count, Points& p) {
-  Points middle, end;
-  moveAlong(wind, top, 0.5f * cellsPerSpeed, count, p, p, middle);
-  moveAlong(wind, top, cellsPerSpeed, count, p, middle, end);
-  p = end;
-}
-
-/// Calls body(i, j, k, count) for runs of at most kChunk faces across `axis` whose row comes within `limit`
-/// of the liquid.
-template <typename Body>
-void forEachWetRun(int axis, const DenseField<float>& phi, const DenseField<float>& faces, float limit,
-                   const Body& body) {
-  const std::ptrdiff_t back = phi.stride(axis);
-  forEachRow(faces.size(), [&](int i, int j) {
-    const float* p = &phi(i, j, 0);
-    for (int k = 0; k < faces.size().z(); k += kChunk) {
-      const int count = std::min(kChunk, faces.size().z() - k);
-      float nearest = limit;
-      for (int n = k; n < k + count; ++n) nearest = std::min(nearest, std::min(p[n], p[n - back]));
-      if (nearest < limit) body(i, j, k, count);
-    }
-  });
-}
 
 /// Index-unit coordinates of a component are cell units less this.
 std::array<float, 3> faceShift(int axis) {
   return {axis == 0 ? 0.0f : 0.5f, axis == 1 ? 0.0f : 0.5f, axis == 2 ? 0.0f : 0.5f};
 }
 
-/// The centres of a run of faces across `axis`.
-void faceCentres(int axis, int i, int j, int k, int count, Points& p) {
-  const std::array<float, 3> shift = faceShift(axis);
-#pragma GCC ivdep
-  for (int n = 0; n < count; ++n) {
-    p.x[n] = static_cast<float>(i) + shift[0];
-    p.y[n] = static_cast<float>(j) + shift[1];
-    p.z[n] = static_cast<float>(k + n) + shift[2];
-  }
+/// Calls body(i, j, k, count) for runs of at most kPathChunk of the faces across `axis` that `spans` holds,
+/// after copying the whole row from one field to another.
+template <typename Body>
+void forEachRun(int axis, const RowSpans& spans, const DenseField<float>& from, DenseField<float>& to,
+                const Body& body) {
+  const int length = from.size().z();
+  forEachRow(from.size(), [&](int i, int j) {
+    std::copy_n(&from(i, j, 0), length, &to(i, j, 0));
+    const RowSpans::Span span = spans.faces(axis, i, j);
+    for (int k = span.begin; k < span.end; k += kPathChunk) body(i, j, k, std::min(kPathChunk, span.end - k));
+  });
 }
 
-/// Trilinear value of a component at a point in cell units, with the range of the eight values it comes from.
-struct RangedValue {
-  float value, low, high;
+/// Values of a run of points.
+struct RunValues {
+  alignas(64) float value[kPathChunk];
 };
-RangedValue sampleRanged(const FieldView& f, float x, float y, float z) {
-  const CellBase b = cellBase(f, x, y, z);
-  const float* p = f.corner + b.offset;
+
+/// Trilinear values of a component at a run of points [cells], with the range of the eight values each comes
+/// from.
+void sampleRanged(const FieldView& f, const std::array<float, 3>& shift, const PathPoints& __restrict at,
+                  float* __restrict value, float* __restrict low, float* __restrict high) {
+  const float* p = f.corner;
+  const float sx = shift[0], sy = shift[1], sz = shift[2];
   const int si = f.strideI, sj = f.strideJ;
-  const float a0 = p[0], a1 = p[1], b0 = p[sj], b1 = p[sj + 1];
-  const float c0 = p[si], c1 = p[si + 1], d0 = p[si + sj], d1 = p[si + sj + 1];
-  const float low =
-      std::min(std::min(std::min(a0, a1), std::min(b0, b1)), std::min(std::min(c0, c1), std::min(d0, d1)));
-  const float high =
-      std::max(std::max(std::max(a0, a1), std::max(b0, b1)), std::max(std::max(c0, c1), std::max(d0, d1)));
-  const float ab = lerp(lerp(a0, a1, b.fz), lerp(b0, b1, b.fz), b.fy);
-  const float cd = lerp(lerp(c0, c1, b.fz), lerp(d0, d1, b.fz), b.fy);
-  return {lerp(ab, cd, b.fx), low, high};
+  for (int n = 0; n < kPathChunk; ++n) {
+    const CellBase b = innerCellBase(f, at.x[n] - sx, at.y[n] - sy, at.z[n] - sz);
+    const int o = b.offset;
+    const float a0 = p[o], a1 = p[o + 1], b0 = p[o + sj], b1 = p[o + sj + 1];
+    const float c0 = p[o + si], c1 = p[o + si + 1], d0 = p[o + si + sj], d1 = p[o + si + sj + 1];
+    low[n] = smaller(smaller(smaller(a0, a1), smaller(b0, b1)), smaller(smaller(c0, c1), smaller(d0, d1)));
+    high[n] = larger(larger(larger(a0, a1), larger(b0, b1)), larger(larger(c0, c1), larger(d0, d1)));
+    const float ab = lerp(lerp(a0, a1, b.fz), lerp(b0, b1, b.fz), b.fy);
+    const float cd = lerp(lerp(c0, c1, b.fz), lerp(d0, d1, b.fz), b.fy);
+    value[n] = lerp(ab, cd, b.fx);
+  }
 }
 
-/// Largest magnitude of any component [m/s].
-float largestValue(const MacVelocity& velocity) {
-  const auto larger = [](float a, float b) { return std::max(a, b); };
-  float largest = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const DenseField<float>& u = velocity[axis];
-    const auto slab = [&](int i) {
-      float value = 0;
-      for (int j = 0; j < u.size().y(); ++j)
-        for (int k = 0; k < u.size().z(); ++k) value = std::max(value, std::abs(u(i, j, k)));
-      return value;
-    };
-    largest = std::max(largest, reduceSlabs(u.size().x(), 0.0f, slab, larger));
+/// Adds half the error of going there and back to the forward values, within their range.
+void correctRun(const FieldView& forward, const std::array<float, 3>& shift,
+                const PathPoints& __restrict returned, const float* __restrict start,
+                const float* __restrict value, const float* __restrict low, const float* __restrict high,
+                float* __restrict out) {
+  const float sx = shift[0], sy = shift[1], sz = shift[2];
+  for (int n = 0; n < kPathChunk; ++n) {
+    const float back = sampleInner(forward, returned.x[n] - sx, returned.y[n] - sy, returned.z[n] - sz);
+    out[n] = smaller(larger(value[n] + 0.5f * (start[n] - back), low[n]), high[n]);
   }
-  return largest;
 }
 
 }  // namespace
 
 VelocityAdvector::VelocityAdvector(const GridSpec& grid)
-    : grid_(grid), forward_(grid.cells), low_(grid.cells), high_(grid.cells), next_(grid.cells) {}
+    : grid_(grid),
+      wet_(grid.cells),
+      forwardSpans_(grid.cells),
+      forward_(grid.cells),
+      low_(grid.cells),
+      high_(grid.cells),
+      next_(grid.cells) {}
 
-void VelocityAdvector::forwardPass(int axis, const DenseField<float>& phi, const MacVelocity& velocity,
-                                   float cellsPerSpeed, float limit) {
+void VelocityAdvector::forwardPass(int axis, const MacVelocity& velocity, float cellsPerSpeed) {
   const MacView wind(velocity);
   const FieldView source(velocity[axis]);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
   const std::array<float, 3> shift = faceShift(axis);
-  forward_[axis] = velocity[axis];
-  forEachWetRun(axis, phi, velocity[axis], limit, [&](int i, int j, int k, int count) {
-    Points p;
-    faceCentres(axis, i, j, k, count, p);
-    trace(wind, top, -cellsPerSpeed, count, p);
-    const float *x = p.x, *y = p.y, *z = p.z;
-    const float shiftX = shift[0], shiftY = shift[1], shiftZ = shift[2];
-    float *value = &forward_[axis](i, j, k), *low = &low_[axis](i, j, k), *high = &high_[axis](i, j, k);
-#pragma GCC ivdep
-    for (int n = 0; n < count; ++n) {
-      const RangedValue v = sampleRanged(source, x[n] - shiftX, y[n] - shiftY, z[n] - shiftZ);
-      value[n] = v.value;
-      low[n] = v.low;
-      high[n] = v.high;
-    }
+  forEachRun(axis, forwardSpans_, velocity[axis], forward_[axis], [&](int i, int j, int k, int count) {
+    PathPoints centre, startWind, from;
+    faceStarts(velocity, axis, i, j, k, centre, startWind);
+    tracePaths(wind, top, -cellsPerSpeed, centre, startWind, from);
+    RunValues value, low, high;
+    sampleRanged(source, shift, from, value.value, low.value, high.value);
+    std::copy_n(value.value, count, &forward_[axis](i, j, k));
+    std::copy_n(low.value, count, &low_[axis](i, j, k));
+    std::copy_n(high.value, count, &high_[axis](i, j, k));
   });
 }
 
-void VelocityAdvector::correctingPass(int axis, const DenseField<float>& phi, const MacVelocity& velocity,
-                                      float cellsPerSpeed, float limit) {
+void VelocityAdvector::correctingPass(int axis, const MacVelocity& velocity, float cellsPerSpeed) {
   const MacView wind(velocity);
   const FieldView forward(forward_[axis]);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
   const std::array<float, 3> shift = faceShift(axis);
-  next_[axis] = velocity[axis];
-  forEachWetRun(axis, phi, velocity[axis], limit, [&](int i, int j, int k, int count) {
-    Points p;
-    faceCentres(axis, i, j, k, count, p);
-    trace(wind, top, cellsPerSpeed, count, p);
-    const float *start = &velocity[axis](i, j, k), *value = &forward_[axis](i, j, k);
-    const float *low = &low_[axis](i, j, k), *high = &high_[axis](i, j, k);
-    const float *x = p.x, *y = p.y, *z = p.z;
-    const float shiftX = shift[0], shiftY = shift[1], shiftZ = shift[2];
-    float* out = &next_[axis](i, j, k);
-#pragma GCC ivdep
-    for (int n = 0; n < count; ++n) {
-      const float returned = sampleIndex(forward, x[n] - shiftX, y[n] - shiftY, z[n] - shiftZ);
-      const float corrected = value[n] + 0.5f * (start[n] - returned);
-      out[n] = std::min(std::max(corrected, low[n]), high[n]);
-    }
+  forEachRun(axis, wet_, velocity[axis], next_[axis], [&](int i, int j, int k, int count) {
+    PathPoints centre, startWind, returned;
+    faceStarts(velocity, axis, i, j, k, centre, startWind);
+    tracePaths(wind, top, cellsPerSpeed, centre, startWind, returned);
+    RunValues corrected;
+    correctRun(forward, shift, returned, &velocity[axis](i, j, k), &forward_[axis](i, j, k),
+               &low_[axis](i, j, k), &high_[axis](i, j, k), corrected.value);
+    std::copy_n(corrected.value, count, &next_[axis](i, j, k));
   });
 }
 
 void VelocityAdvector::advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt,
                                MacVelocity& velocity) {
-  const float dx = static_cast<float>(grid_.dx);
   const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
   const bool corrected = scheme == VelocityAdvection::macCormack;
+  const float limit = kReach * static_cast<float>(grid_.dx);
+  wet_.find(phi, [limit](float value) { return value < limit; });
+  forwardSpans_ = wet_;
   // The correcting pass reads forward values as far out as a path is long, and one stencil more.
-  const float path = corrected ? std::ceil(largestValue(velocity) * cellsPerSpeed) + 1 : 0;
-  const float forwardLimit = (kReach + path) * dx;
-  for (int axis = 0; axis < 3; ++axis) forwardPass(axis, phi, velocity, cellsPerSpeed, forwardLimit);
+  if (corrected) forwardSpans_.grow(static_cast<int>(std::ceil(largestSpeed(velocity) * cellsPerSpeed)) + 1);
+  for (int axis = 0; axis < 3; ++axis) forwardPass(axis, velocity, cellsPerSpeed);
   if (corrected) {
     fillGhostLayers(forward_);
-    for (int axis = 0; axis < 3; ++axis) correctingPass(axis, phi, velocity, cellsPerSpeed, kReach * dx);
+    for (int axis = 0; axis < 3; ++axis) correctingPass(axis, velocity, cellsPerSpeed);
     std::swap(velocity, next_);
   } else {
     std::swap(velocity, forward_);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "fluid/marker_chunks.h"
+#include "fluid/marker_set.h"
+#include "fluid/sampling.h"
+
+namespace spume::fluid {
+
+/// One number per marker of a chunk.
+struct alignas(64) MarkerValues : std::array<float, kMarkerChunk> {};
+struct alignas(64) MarkerCells : std::array<std::int32_t, kMarkerChunk> {};
+
+/// Trilinear values of a cell-centred field at the markers [first, last), which lie in the grid:
+/// `values[n - first]` belongs to marker n.
+void sampleAtMarkers(const FieldView& field, const MarkerSet& markers, std::size_t first, std::size_t last,
+                     MarkerValues& values);
+
+/// Offsets of the cells that hold the markers [first, last) in a field with the strides of `field`. A marker
+/// on the high side of the grid belongs to the last cell.
+template <typename T>
+void findMarkerCells(const DenseField<T>& field, const MarkerSet& markers, std::size_t first,
+                     std::size_t last, MarkerCells& cells);
+extern template void findMarkerCells(const DenseField<float>&, const MarkerSet&, std::size_t, std::size_t,
+                                     MarkerCells&);
+extern template void findMarkerCells(const DenseField<std::int32_t>&, const MarkerSet&, std::size_t,
+                                     std::size_t, MarkerCells&);
+
+/// Flags the markers [first, last) whose distance into their own side, toSide times `values` [cells], is less
+/// than minus their radius.
+void flagEscapedMarkers(const MarkerValues& values, float toSide, std::size_t first, std::size_t last,
+                        MarkerSet& markers);
+
+}  // namespace spume::fluid
