@@ -18,9 +18,10 @@ constexpr float kLeastAllowed = 0.5f, kMostAllowed = 1.5f;  // squared gradient:
 constexpr float kLeastWanted = 0.6f, kMostWanted = 1.4f;    // with room for what the neighbours do next
 constexpr int kTries = 20;  // a voxel moves by at most kTries / kTriesPerVoxel
 constexpr int kTriesPerVoxel = 20;
-constexpr int kStencilReach = 3;   // voxels a WENO stencil reads along each axis
-constexpr int kMendingPasses = 4;  // mending one voxel may break its neighbour; 3 passes are usual
-constexpr int kPasses = 40;  // then those left, features finer than the grid, are smoothed between passes
+constexpr int kStencilReach = 3;     // voxels a WENO stencil reads along each axis
+constexpr int kMendingPasses = 4;    // mending one voxel may break its neighbour; 3 passes are usual
+constexpr int kPasses = 60;          // those left, finer than the grid, are mended with their neighbours
+constexpr int kSmoothingPeriod = 4;  // and every fourth time smoothed, where that has come to an end
 
 const Coord kSteps[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
@@ -28,6 +29,13 @@ bool offends(Stencil& stencil) {
   if (!stencil.zeroCrossing()) return false;
   const float gradient = stencil.normSqGrad();
   return !(gradient >= kLeastAllowed && gradient <= kMostAllowed);
+}
+
+/// How far the squared gradient is outside the wanted range, 0 where nothing is asked of it.
+float strainAt(Stencil& stencil) {
+  if (!stencil.zeroCrossing()) return 0;
+  const float gradient = stencil.normSqGrad();
+  return std::max({0.0f, kLeastWanted - gradient, gradient - kMostWanted});
 }
 
 /// Whether the surface crosses between a voxel and one of its six neighbours: what the stencil says too,
@@ -111,6 +119,20 @@ class Repair {
     changed_.push_back(voxel);
   }
 
+  /// Of all moves of a voxel or one of its neighbours, makes the one that leaves the least strain round it.
+  void mendJointly(const Coord& voxel) {
+    stencil_.moveTo(voxel);
+    if (!offends(stencil_)) return;
+    Move best = bestMove(voxel);
+    for (const Coord& step : kSteps)
+      for (const Coord& neighbour : {voxel + step, voxel - step}) {
+        const Move move = bestMove(neighbour);
+        if (move.gain > best.gain) best = move;
+      }
+    accessor_.setValueOnly(best.voxel, best.value);
+    changed_.push_back(best.voxel);
+  }
+
   /// Moves a voxel and its neighbours half way to the mean of theirs.
   void smoothAround(const Coord& voxel) {
     smooth(voxel);
@@ -121,6 +143,43 @@ class Repair {
   std::vector<Coord> takeChanged() { return std::exchange(changed_, {}); }
 
  private:
+  struct Move {
+    Coord voxel;
+    float value;  // the voxel's new phi [m]
+    float gain;   // of strain, 0: none found
+  };
+
+  Move bestMove(const Coord& voxel) {
+    const float own = accessor_.getValue(voxel);
+    Move best{voxel, own, 0};
+    if (!accessor_.isValueOn(voxel)) return best;
+    const float before = strainRound(voxel);
+    for (int n = -kTries; n <= kTries; ++n) {
+      const float value = own + dx_ * static_cast<float>(n) / kTriesPerVoxel;
+      accessor_.setValueOnly(voxel, value);
+      const float gain = before - strainRound(voxel);
+      if (gain > best.gain) best = {voxel, value, gain};
+    }
+    accessor_.setValueOnly(voxel, own);
+    return best;
+  }
+
+  /// Strain of all voxels whose differences use `voxel`.
+  float strainRound(const Coord& voxel) {
+    float sum = strainOf(voxel);
+    for (const Coord& step : kSteps)
+      for (int n = 1; n <= kStencilReach; ++n) {
+        const Coord far(n * step.x(), n * step.y(), n * step.z());
+        sum += strainOf(voxel + far) + strainOf(voxel - far);
+      }
+    return sum;
+  }
+  float strainOf(const Coord& voxel) {
+    if (!accessor_.isValueOn(voxel)) return 0;
+    stencil_.moveTo(voxel);
+    return strainAt(stencil_);
+  }
+
   void smooth(const Coord& voxel) {
     float sum = 0;
     for (const Coord& step : kSteps)
@@ -161,8 +220,15 @@ std::size_t repairLevelSet(openvdb::FloatGrid& surface) {
   std::vector<Coord> offenders = offendersOf(surface);
   Repair repair(surface);
   for (int pass = 0; pass < kPasses && !offenders.empty(); ++pass) {
-    const bool stuck = pass >= kMendingPasses && pass % 2;
-    for (const Coord& voxel : offenders) stuck ? repair.smoothAround(voxel) : repair.mend(voxel);
+    for (const Coord& voxel : offenders) {
+      if (pass < kMendingPasses) {
+        repair.mend(voxel);
+      } else if ((pass - kMendingPasses) % kSmoothingPeriod < kSmoothingPeriod - 1) {
+        repair.mendJointly(voxel);
+      } else {
+        repair.smoothAround(voxel);
+      }
+    }
     std::vector<Coord> suspects = repair.takeChanged();
     suspects.insert(suspects.end(), offenders.begin(), offenders.end());
     offenders = offendersNear(surface, suspects);

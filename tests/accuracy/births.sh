@@ -1,18 +1,18 @@
 #!/bin/sh
 # Do births depend on the grid, the step or the markers? Runs the pouring scene with each changed in turn and prints, for
-# the steady pour (1 s to 2.5 s), births a second, the radii's median and spread, and their ratio to the first row.
-# Usage: sh tests/accuracy/births.sh [FOLDER]   (about 10 minutes on 2 cores; needs build/apps/spume)
+# the steady pour (0.8 s to 3.5 s), births a second, the radii's median and spread, and their ratio to the first row.
+# Usage: sh tests/accuracy/births.sh [FOLDER]   (about 15 minutes on 2 cores; needs build/apps/spume)
 set -eu
 cd "$(dirname "$0")/../.."
 out=${1:-out/births}
 spume=build/apps/spume
-from=1.0
-to=2.5
+from=0.8
+to=3.5
 
 variant() {
   name=$1
   shift
-  "$spume" run data/scenes/pouring.toml -o "$out/$name" --frames 75 --no-preview --restart \
+  "$spume" run data/scenes/pouring.toml -o "$out/$name" --frames 105 --no-preview --restart \
     --set output.liquid=false --set output.bubbles_vdb=false --set output.bubbles_ply=false "$@" >"$out/$name.log"
   awk -F, -v from=$from -v to=$to '
     NR == 1 { for (c = 1; c <= NF; ++c) column[$c] = c; next }
