@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fluid/dense_field.h"
+#include "fluid/parallel.h"
 
 namespace spume::fluid {
 
@@ -13,19 +14,19 @@ namespace spume::fluid {
 class ConnectedCells {
  public:
   /// `member(i, j, k)`: whether a cell belongs to the set; `joined(axis, i, j, k)`: whether the minus face of
-  /// cell (i, j, k) across `axis` connects its two sides. Writes components 0, 1, ... in the order of their
-  /// first cells and -1 elsewhere, ghosts included; returns their number. `label` is resized if it does not
-  /// fit.
+  /// cell (i, j, k) across `axis` connects its two sides; both are called from several threads at once.
+  /// Writes components 0, 1, ... in the order of their first cells and -1 elsewhere, ghosts included; returns
+  /// their number. `label` is resized if it does not fit.
   template <typename Member, typename Joined>
   int label(const Eigen::Vector3i& cells, const Member& member, const Joined& joined,
             DenseField<std::int32_t>& label) {
     if (label.size() != cells) label = DenseField<std::int32_t>(cells, -1);
-    runs_.clear();
-    rowStart_.assign(1, 0);
+    slabs_.resize(cells.x());
+    tbb::parallel_for(0, cells.x(), [&](int i) { findSlab(i, cells, member, joined); });
+    joinSlabs();
     for (int i = 0; i < cells.x(); ++i)
       for (int j = 0; j < cells.y(); ++j) {
-        findRuns(i, j, cells.z(), member, joined);
-        const int row = static_cast<int>(rowStart_.size()) - 2;
+        const int row = i * cells.y() + j;
         if (i > 0) uniteRows(row - cells.y(), row, [&](int k) { return joined(0, i, j, k); });
         if (j > 0) uniteRows(row - 1, row, [&](int k) { return joined(1, i, j, k); });
       }
@@ -38,17 +39,29 @@ class ConnectedCells {
     std::int32_t parent;  // of the union-find forest; never larger than the run's own number
   };
 
+  /// The runs of one slab of rows, found by one task.
+  struct Slab {
+    std::vector<Run> runs;
+    std::vector<std::int32_t> rowEnd;  // in `runs`
+  };
+
   template <typename Member, typename Joined>
-  void findRuns(int i, int j, int nz, const Member& member, const Joined& joined) {
-    for (int k = 0; k < nz; ++k) {
-      if (!member(i, j, k)) continue;
-      const bool follows = static_cast<int>(runs_.size()) > rowStart_.back() && runs_.back().end == k;
-      if (follows && joined(2, i, j, k))
-        runs_.back().end = k + 1;
-      else
-        runs_.push_back({k, k + 1, static_cast<std::int32_t>(runs_.size())});
+  void findSlab(int i, const Eigen::Vector3i& cells, const Member& member, const Joined& joined) {
+    Slab& slab = slabs_[i];
+    slab.runs.clear();
+    slab.rowEnd.clear();
+    for (int j = 0; j < cells.y(); ++j) {
+      const std::size_t rowBegin = slab.runs.size();
+      for (int k = 0; k < cells.z(); ++k) {
+        if (!member(i, j, k)) continue;
+        const bool follows = slab.runs.size() > rowBegin && slab.runs.back().end == k;
+        if (follows && joined(2, i, j, k))
+          slab.runs.back().end = k + 1;
+        else
+          slab.runs.push_back({k, k + 1, 0});
+      }
+      slab.rowEnd.push_back(static_cast<std::int32_t>(slab.runs.size()));
     }
-    rowStart_.push_back(static_cast<std::int32_t>(runs_.size()));
   }
 
   template <typename JoinedAt>
@@ -65,10 +78,12 @@ class ConnectedCells {
     }
   }
 
+  void joinSlabs();
   std::int32_t root(std::int32_t run);
   void unite(std::int32_t a, std::int32_t b);
   int write(const Eigen::Vector3i& cells, DenseField<std::int32_t>& label);
 
+  std::vector<Slab> slabs_;
   std::vector<Run> runs_;
   std::vector<std::int32_t> rowStart_;  // first run of each row, nx ny + 1 entries
   std::vector<std::int32_t> number_;    // component of each run

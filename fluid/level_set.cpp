@@ -1,6 +1,7 @@
 #include "fluid/level_set.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fluid/parallel.h"
@@ -27,15 +28,15 @@ int nearest(int i, int n) { return std::clamp(i, 0, n - 1); }
 template <typename Source>
 void fillGhosts(DenseField<float>& f, const Source& source) {
   const Eigen::Vector3i n = f.size();
-  const std::ptrdiff_t rowBytes = n.z() + 2 * kGhost;
-  forEachRow(n, [&](int i, int j) {
-    for (int g = 1; g <= kGhost; ++g) {
-      f(i, j, -g) = f(i, j, source(-g, n.z()));
-      f(i, j, n.z() - 1 + g) = f(i, j, source(n.z() - 1 + g, n.z()));
-    }
+  const std::ptrdiff_t rowLength = n.z() + 2 * kGhost;
+  std::array<int, kGhost + 1> before, after;
+  for (int g = 1; g <= kGhost; ++g) before[g] = source(-g, n.z()), after[g] = source(n.z() - 1 + g, n.z());
+  forEachRow(n, [&, before, after](int i, int j) {
+    float *row = &f(i, j, 0), *end = row + n.z() - 1;
+    for (int g = 1; g <= kGhost; ++g) row[-g] = row[before[g]], end[g] = row[after[g]];
   });
   const auto copyRow = [&](int i, int j, int fromI, int fromJ) {
-    std::copy_n(&f(fromI, fromJ, -kGhost), rowBytes, &f(i, j, -kGhost));
+    std::copy_n(&f(fromI, fromJ, -kGhost), rowLength, &f(i, j, -kGhost));
   };
   for (int i = 0; i < n.x(); ++i)
     for (int g = 1; g <= kGhost; ++g) {
@@ -153,8 +154,8 @@ void SolidExtension::apply(DenseField<float>& field) const {
 
 namespace {
 
-/// Largest curvature term of the volume [phi per cell]: that of a drop of 2.7 cells radius. At kinks the second
-/// difference is not a curvature and must not move the surface far.
+/// Largest curvature term of the volume [phi per cell]: that of a drop of 2.7 cells radius. At kinks the
+/// second difference is not a curvature and must not move the surface far.
 constexpr float kMaxLaplacian = 0.75f;
 /// Cells further from the surface than this are full or empty [cells]: half a diagonal and a margin.
 constexpr float kUncutDistance = 1;

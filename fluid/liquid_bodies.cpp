@@ -1,8 +1,10 @@
 #include "fluid/liquid_bodies.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "fluid/level_set.h"
+#include "fluid/parallel.h"
 
 namespace spume::fluid {
 namespace {
@@ -46,34 +48,65 @@ void LiquidBodies::find(const GridSpec& grid, const DenseField<float>& phi, cons
   measure(grid, phi, boundary);
 }
 
-/// Sums in the order of the cells; the fractions alone are worth computing in parallel.
+/// Sums of the stretches of a row that belong to one body, taken slab by slab in parallel and joined in their
+/// order.
 void LiquidBodies::measure(const GridSpec& grid, const DenseField<float>& phi,
                            const SolidBoundary& boundary) {
   if (fraction_.size() != grid.cells) fraction_ = DenseField<float>(grid.cells);
   computeLiquidFraction(phi, boundary, static_cast<float>(grid.dx), fraction_);
+  touching_.assign(bodies.size(), 0);
+  parts_.resize(grid.cells.x());
+  tbb::parallel_for(0, grid.cells.x(), [&](int i) { measureSlab(i, grid, phi, boundary); });
   volume = 0;
-  for (int i = 0; i < grid.cells.x(); ++i)
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k) {
-        std::int32_t n = label(i, j, k);
-        if (n >= 0) {
-          LiquidBody& body = bodies[n];
-          ++body.cells;
-          body.room += boundary.cellFraction(i, j, k);
-          body.centroid += grid.cellCentre(i, j, k);
-          body.touchesAir = body.touchesAir || bordersAir(label, boundary, {i, j, k});
-        } else if (fraction_(i, j, k) > 0) {
-          n = neighbourBody(phi, label, i, j, k);
-        }
-        volume += fraction_(i, j, k);
-        if (n >= 0) bodies[n].volume += fraction_(i, j, k);
-      }
+  for (const std::vector<Part>& slab : parts_)
+    for (const Part& part : slab) {
+      volume += part.volume;
+      if (part.body < 0) continue;
+      LiquidBody& body = bodies[part.body];
+      body.cells += part.cells;
+      body.room += part.room;
+      body.centroid += part.centroid;
+      body.volume += part.volume;
+    }
   volume *= grid.cellVolume();
-  for (LiquidBody& body : bodies) {
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    LiquidBody& body = bodies[n];
+    body.touchesAir = touching_[n] != 0;
     body.volume *= grid.cellVolume();
     body.room *= grid.cellVolume();
     body.centroid /= static_cast<double>(body.cells);
   }
+}
+
+void LiquidBodies::measureSlab(int i, const GridSpec& grid, const DenseField<float>& phi,
+                               const SolidBoundary& boundary) {
+  std::vector<Part>& parts = parts_[i];
+  parts.clear();
+  const auto partOf = [&](std::int32_t body) -> Part& {
+    if (parts.empty() || parts.back().body != body)
+      parts.push_back(Part{body, 0, 0, 0, Eigen::Vector3d::Zero()});
+    return parts.back();
+  };
+  const auto noteAir = [&](std::int32_t body, const Eigen::Vector3i& c) {
+    const std::atomic_ref<std::uint8_t> touches(touching_[body]);  // only ever set: any order gives the same
+    if (!touches.load(std::memory_order_relaxed) && bordersAir(label, boundary, c))
+      touches.store(1, std::memory_order_relaxed);
+  };
+  for (int j = 0; j < grid.cells.y(); ++j)
+    for (int k = 0; k < grid.cells.z(); ++k) {
+      const std::int32_t body = label(i, j, k);
+      const float wet = fraction_(i, j, k);
+      if (body >= 0) {
+        Part& part = partOf(body);
+        ++part.cells;
+        part.room += boundary.cellFraction(i, j, k);
+        part.centroid += grid.cellCentre(i, j, k);
+        part.volume += wet;
+        noteAir(body, {i, j, k});
+      } else if (wet > 0) {
+        partOf(neighbourBody(phi, label, i, j, k)).volume += wet;
+      }
+    }
 }
 
 }  // namespace spume::fluid

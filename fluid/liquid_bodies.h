@@ -31,9 +31,20 @@ struct LiquidBodies {
   void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 
  private:
-  ConnectedCells connected_;
-  DenseField<float> fraction_;  // liquid share of each cell
+  /// A stretch of a slab of cells that belongs to one body, in cells and dx^3; -1: to none.
+  struct Part {
+    std::int32_t body = -1;
+    std::ptrdiff_t cells = 0;
+    double volume = 0, room = 0;
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // summed
+  };
   void measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+  void measureSlab(int i, const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+
+  ConnectedCells connected_;
+  DenseField<float> fraction_;            // liquid share of each cell
+  std::vector<std::vector<Part>> parts_;  // of each slab
+  std::vector<std::uint8_t> touching_;    // per body: it borders air
 };
 
 }  // namespace spume::fluid

@@ -26,6 +26,8 @@ class MarkerCorrection {
     float plus, minus;  ///< best value of either sign [m]
   };
   void collect(float dx, MarkerSign sign, const MarkerSet& markers, const DenseField<float>& phi);
+  void offerSphere(float dx, MarkerSign sign, float x, float y, float z, float radius,
+                   const DenseField<float>& phi);
   Offer& offerAt(std::int32_t cell, float phi);
 
   std::vector<Offer> offers_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fluid/dense_field.h"
@@ -33,6 +34,7 @@ class MarkerEscape {
  private:
   MarkerShares shares_;
   MarkerSorter sorter_;
+  std::vector<std::vector<std::int32_t>> leaving_;  ///< of each chunk of markers
 };
 
 }  // namespace spume::fluid

@@ -23,6 +23,17 @@ float halfSum(const DenseField<float>& fine, const Eigen::Vector3i& at,
   return 0.5f * sum;
 }
 
+// The loops over a piece of a row stand alone so that nothing they read can alias what they write.
+
+/// The first sweep from x = 0 over the cells of one parity; the others are set to 0.
+[[gnu::noinline]] void startPiece(const float* __restrict inverse, const float* __restrict rhs, int parity,
+                                  int count, float* __restrict x) {
+  for (int k = 0; k < count; ++k) {
+    const float relaxed = inverse[k] * rhs[k];
+    x[k] = ((k ^ parity) & 1) == 0 ? relaxed : 0;
+  }
+}
+
 /// Gauss-Seidel value of every cell [begin, begin + count) of row (i, j); those of one colour are kept.
 void relaxPiece(const PressureMatrix& m, int i, int j, int begin, int count, int colour,
                 const float* __restrict rhs, float* __restrict x) {
@@ -38,6 +49,17 @@ void relaxPiece(const PressureMatrix& m, int i, int j, int begin, int count, int
                                wy[k + sj] * x[k + sj] + wz[k] * x[k - 1] + wz[k + 1] * x[k + 1]);
   const int parity = (i + j + begin + colour) & 1;
   for (int k = 0; k < count; ++k) x[k] = (k & 1) == parity ? relaxed[k] : x[k];
+}
+
+/// Adds the correction of `pairs` coarse cells to their children in a row, where these are unknowns.
+[[gnu::noinline]] void correctPairs(const float* __restrict correction, const float* __restrict inverse,
+                                    int pairs, float* __restrict x) {
+  for (int m = 0; m < pairs; ++m) {
+    const float low = inverse[2 * m] > 0 ? correction[m] : 0;
+    const float high = inverse[2 * m + 1] > 0 ? correction[m] : 0;
+    x[2 * m] += low;
+    x[2 * m + 1] += high;
+  }
 }
 
 /// Residual of cells [begin, begin + count) of row (i, j), 0 where there is no unknown.
@@ -111,11 +133,8 @@ void Multigrid::cycle(std::size_t depth) {
 /// The first red sweep from x = 0.
 void Multigrid::startSmooth(Level& level) {
   forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
-    const float* inverse = &level.matrix.inverseDiagonal(row.i, row.j, 0);
-    const float* rhs = &level.rhs(row.i, row.j, 0);
-    float* x = &level.x(row.i, row.j, 0);
-    const int parity = (row.i + row.j) & 1;
-    for (int k = row.begin; k < row.end; ++k) x[k] = (k & 1) == parity ? inverse[k] * rhs[k] : 0;
+    startPiece(&level.matrix.inverseDiagonal(row.i, row.j, row.begin), &level.rhs(row.i, row.j, row.begin),
+               (row.i + row.j + row.begin) & 1, row.end - row.begin, &level.x(row.i, row.j, row.begin));
   });
 }
 
@@ -148,10 +167,10 @@ void Multigrid::restrictPiece(const Level& fine, Level& coarse, const ActiveRow&
 
 void Multigrid::addCorrection(const Level& coarse, Level& fine) {
   forEachActiveRow(fine.matrix.rows, [&](const ActiveRow& row) {
-    const float* correction = &coarse.x(row.i / 2, row.j / 2, 0);
-    const float* inverse = &fine.matrix.inverseDiagonal(row.i, row.j, 0);
-    float* x = &fine.x(row.i, row.j, 0);
-    for (int k = row.begin; k < row.end; ++k) x[k] += inverse[k] > 0 ? correction[k / 2] : 0;
+    const int begin = row.begin / 2, pairs = (row.end + 1) / 2 - begin;  // past an odd end lies a ghost
+    correctPairs(&coarse.x(row.i / 2, row.j / 2, begin),
+                 &fine.matrix.inverseDiagonal(row.i, row.j, 2 * begin), pairs,
+                 &fine.x(row.i, row.j, 2 * begin));
   });
 }
 

@@ -7,20 +7,21 @@
 namespace spume::fluid {
 namespace {
 
-/// 1/diagonal of each cell of a row; returns the range of its unknowns.
-ActiveRow invertRow(PressureMatrix& m, int i, int j) {
-  ActiveRow row{i, j, 0, 0};
-  for (int k = 0; k < m.cells().z(); ++k) {
-    const float diagonal = m.weight[0](i, j, k) + m.weight[0](i + 1, j, k) + m.weight[1](i, j, k) +
-                           m.weight[1](i, j + 1, k) + m.weight[2](i, j, k) + m.weight[2](i, j, k + 1) +
-                           m.excess(i, j, k);
-    m.inverseDiagonal(i, j, k) = diagonal > 0 ? 1 / diagonal : 0;
-    if (diagonal > 0) {
-      if (row.end == 0) row.begin = k;
-      row.end = k + 1;
-    }
-  }
-  return row;
+/// Diagonal of each cell of a row. On its own so that nothing it reads can alias what it writes.
+[[gnu::noinline]] void sumRow(const float* __restrict wx, const float* __restrict wy,
+                              const float* __restrict wz, const float* __restrict excess, std::ptrdiff_t si,
+                              std::ptrdiff_t sj, int count, float* __restrict diagonal) {
+  for (int k = 0; k < count; ++k)
+    diagonal[k] = wx[k] + wx[k + si] + wy[k] + wy[k + sj] + wz[k] + wz[k + 1] + excess[k];
+}
+
+/// Turns the diagonals of a row into their inverses; returns the range of its unknowns.
+ActiveRow invertRow(int i, int j, float* diagonal, int count) {
+  int begin = 0, end = count;
+  while (end > 0 && !(diagonal[end - 1] > 0)) --end;
+  while (begin < end && !(diagonal[begin] > 0)) ++begin;
+  for (int k = begin; k < end; ++k) diagonal[k] = diagonal[k] > 0 ? 1 / diagonal[k] : 0;
+  return {i, j, begin, end};
 }
 
 double multiplyRow(const PressureMatrix& m, const ActiveRow& row, const DenseField<double>& in,
@@ -49,10 +50,15 @@ PressureMatrix::PressureMatrix(const Eigen::Vector3i& cells)
       inverseDiagonal(cells) {}
 
 void PressureMatrix::finish() {
-  const int nx = cells().x(), ny = cells().y();
+  const int nx = cells().x(), ny = cells().y(), nz = cells().z();
   rows.resize(static_cast<std::size_t>(nx) * ny);
-  forEachRow(cells(), [&](int i, int j) { rows[i * ny + j] = invertRow(*this, i, j); });
-  std::erase_if(rows, [](const ActiveRow& row) { return row.end == 0; });
+  forEachRow(cells(), [&](int i, int j) {
+    float* diagonal = &inverseDiagonal(i, j, 0);
+    sumRow(&weight[0](i, j, 0), &weight[1](i, j, 0), &weight[2](i, j, 0), &excess(i, j, 0), excess.stride(0),
+           excess.stride(1), nz, diagonal);
+    rows[i * ny + j] = invertRow(i, j, diagonal, nz);
+  });
+  std::erase_if(rows, [](const ActiveRow& row) { return row.begin >= row.end; });
 }
 
 double PressureMatrix::multiply(const DenseField<double>& x, DenseField<double>& y) const {

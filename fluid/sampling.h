@@ -88,8 +88,7 @@ inline float sampleCentred(const FieldView& f, float x, float y, float z) {
 struct ValueAndGradient {
   float value, gx, gy, gz;
 };
-inline ValueAndGradient sampleCentredGradient(const FieldView& f, float x, float y, float z) {
-  const CellBase b = cellBase(f, x - 0.5f, y - 0.5f, z - 0.5f);
+inline ValueAndGradient interpolateGradient(const FieldView& f, const CellBase& b) {
   const float* p = f.corner;
   const int o = b.offset, si = f.strideI, sj = f.strideJ;
   const float v000 = p[o], v001 = p[o + 1], v010 = p[o + sj], v011 = p[o + sj + 1];
@@ -99,6 +98,14 @@ inline ValueAndGradient sampleCentredGradient(const FieldView& f, float x, float
   const float c0 = lerp(c00, c01, b.fy), c1 = lerp(c10, c11, b.fy);
   const float d0 = lerp(v001 - v000, v011 - v010, b.fy), d1 = lerp(v101 - v100, v111 - v110, b.fy);
   return {lerp(c0, c1, b.fx), c1 - c0, lerp(c01 - c00, c11 - c10, b.fx), lerp(d0, d1, b.fx)};
+}
+
+inline ValueAndGradient sampleCentredGradient(const FieldView& f, float x, float y, float z) {
+  return interpolateGradient(f, cellBase(f, x - 0.5f, y - 0.5f, z - 0.5f));
+}
+/// The same at a position inside the grid.
+inline ValueAndGradient sampleInnerCentredGradient(const FieldView& f, float x, float y, float z) {
+  return interpolateGradient(f, innerCellBase(f, x - 0.5f, y - 0.5f, z - 0.5f));
 }
 
 /// View of a staggered velocity.
