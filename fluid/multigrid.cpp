@@ -34,21 +34,25 @@ float halfSum(const DenseField<float>& fine, const Eigen::Vector3i& at,
   }
 }
 
-/// Gauss-Seidel value of every cell [begin, begin + count) of row (i, j); those of one colour are kept.
-void relaxPiece(const PressureMatrix& m, int i, int j, int begin, int count, int colour,
-                const float* __restrict rhs, float* __restrict x) {
-  const auto at = m.excess.index(i, j, begin);
+/// Gauss-Seidel sweep over the cells of one parity of a row that begins at offset `at`. All are computed and
+/// those of the other parity kept as they were, so that the loop vectorises; the new values depend on these
+/// alone. `before` and `after` are the same row: two names, or the compiler carries values from one cell to
+/// the next.
+[[gnu::noinline]] void relaxRow(const PressureMatrix& m, std::ptrdiff_t at, int parity, int count,
+                                const float* rhs, const float* before, float* after) {
   const auto si = m.excess.stride(0), sj = m.excess.stride(1);
-  const float* __restrict wx = m.weight[0].data() + at;
-  const float* __restrict wy = m.weight[1].data() + at;
-  const float* __restrict wz = m.weight[2].data() + at;
-  const float* __restrict inverse = m.inverseDiagonal.data() + at;
-  alignas(64) float relaxed[2 * kPiece];  // computing both colours and keeping one lets the loops vectorise
-  for (int k = 0; k < count; ++k)
-    relaxed[k] = inverse[k] * (rhs[k] + wx[k] * x[k - si] + wx[k + si] * x[k + si] + wy[k] * x[k - sj] +
-                               wy[k + sj] * x[k + sj] + wz[k] * x[k - 1] + wz[k + 1] * x[k + 1]);
-  const int parity = (i + j + begin + colour) & 1;
-  for (int k = 0; k < count; ++k) x[k] = (k & 1) == parity ? relaxed[k] : x[k];
+  const float* wx = m.weight[0].data() + at;
+  const float* wy = m.weight[1].data() + at;
+  const float* wz = m.weight[2].data() + at;
+  const float* inverse = m.inverseDiagonal.data() + at;
+#pragma GCC ivdep
+  for (int k = 0; k < count; ++k) {
+    const float relaxed =
+        inverse[k] * (rhs[k] + wx[k] * before[k - si] + wx[k + si] * before[k + si] + wy[k] * before[k - sj] +
+                      wy[k + sj] * before[k + sj] + wz[k] * before[k - 1] + wz[k + 1] * before[k + 1]);
+    const float kept = before[k];
+    after[k] = ((k ^ parity) & 1) == 0 ? relaxed : kept;
+  }
 }
 
 /// Adds the correction of `pairs` coarse cells to their children in a row, where these are unknowns.
@@ -140,9 +144,10 @@ void Multigrid::startSmooth(Level& level) {
 
 void Multigrid::smooth(Level& level, int colour) {
   forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
-    for (int k = row.begin; k < row.end; k += 2 * kPiece)
-      relaxPiece(level.matrix, row.i, row.j, k, std::min(2 * kPiece, row.end - k), colour,
-                 &level.rhs(row.i, row.j, k), &level.x(row.i, row.j, k));
+    const auto at = level.matrix.excess.index(row.i, row.j, row.begin);
+    float* x = level.x.data() + at;
+    relaxRow(level.matrix, at, (row.i + row.j + row.begin + colour) & 1, row.end - row.begin,
+             level.rhs.data() + at, x, x);
   });
 }
 
