@@ -7,7 +7,7 @@
 
 namespace spume::fluid {
 
-/// Preconditioner for the pressure: one symmetric V(1,1) cycle in float. Levels are made by aggregating 2^3
+/// Preconditioner for the pressure: one symmetric V cycle in float. Levels are made by aggregating 2^3
 /// cells, interpolation is piecewise constant, and the coarse matrix is half the Galerkin product, which
 /// makes up for the over-stiff coarse space (model of [Braess 1995]): coarse weight = half the sum of its
 /// four fine ones, coarse excess = half the sum of its children's. Red-black Gauss-Seidel smooths, red first
