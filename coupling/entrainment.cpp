@@ -66,22 +66,9 @@ void Entrainment::payBubbles(const Leaver& leaver, const BlockIndex& block, Rese
   }
 }
 
-/// Deviation: gas does not wait for ever. The few fast leavers of a soft jet would add up to a bubble in the
-/// end; where water really drags air under, a block is paid within hundredths of a second and loses next to
-/// nothing.
-void Entrainment::fade(double dt, Reservoirs& reservoirs, GasLedger& ledger) const {
-  const double lostShare = -std::expm1(-dt / spec_.reservoirLife);
-  for (auto& [block, reservoir] : reservoirs) {
-    const double lost = lostShare * reservoir.gas;
-    reservoir.gas -= lost;
-    ledger.faded += lost;
-  }
-}
-
 std::vector<Birth> Entrainment::step(const std::vector<fluid::EscapedMarker>& escaped,
-                                     const std::vector<fluid::CollapsedPocket>& pockets, double dt,
+                                     const std::vector<fluid::CollapsedPocket>& pockets,
                                      Reservoirs& reservoirs, GasLedger& ledger) const {
-  fade(dt, reservoirs, ledger);
   // The captured film is as thick as a cell; L_e/dx makes it as thick as L_e at every resolution (rule 2).
   const double filmScale = spec_.length / dx_;
   std::vector<Birth> births;

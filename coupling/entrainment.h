@@ -27,27 +27,25 @@ struct Birth {
   BirthCause cause;
 };
 
-/// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes
-/// from the markers that left the set, the sizes from the scene's distribution: sizes depend on neither dx,
-/// dt nor the number of markers. The rate still does, through the speeds that markers remember (README,
-/// "Measured").
+/// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes from the
+/// markers that left the set, the sizes from the scene's distribution: sizes depend on neither dx, dt nor the number of
+/// markers. The rate still does, through the speeds that markers remember (README, "Measured").
 class Entrainment {
  public:
   /// `dx` is the liquid's cell edge [m].
   Entrainment(const EntrainmentSpec& spec, double dx, std::uint64_t seed);
 
-  /// Lets the reservoirs fade for `dt` [s], books the gas of `escaped` and `pockets` into `reservoirs` and
-  /// `ledger` and returns the bubbles the reservoirs can pay, in the order of the leavers that tipped them.
+  /// Books the gas of `escaped` and `pockets` into `reservoirs` and `ledger` and returns the bubbles the
+  /// reservoirs can pay, in the order of the leavers that tipped them.
   std::vector<Birth> step(const std::vector<fluid::EscapedMarker>& escaped,
-                          const std::vector<fluid::CollapsedPocket>& pockets, double dt,
-                          Reservoirs& reservoirs, GasLedger& ledger) const;
+                          const std::vector<fluid::CollapsedPocket>& pockets, Reservoirs& reservoirs,
+                          GasLedger& ledger) const;
 
   /// Radius [m] of bubble number `draw` of a block: lognormal, redrawn until inside the cut.
   double drawRadius(const BlockIndex& block, std::uint64_t draw) const;
 
  private:
   struct Leaver;
-  void fade(double dt, Reservoirs& reservoirs, GasLedger& ledger) const;
   void payBubbles(const Leaver& leaver, const BlockIndex& block, Reservoir& reservoir,
                   std::vector<Birth>& births) const;
 

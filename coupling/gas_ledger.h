@@ -3,7 +3,7 @@
 namespace spume::coupling {
 
 /// Gas since the start of the run [m^3], closed to 1e-12 of `entered()`:
-/// inBubbles + inReservoirs = entered() - faded - burst - killed - left.
+/// inBubbles + inReservoirs = entered() - burst - killed - left.
 struct GasLedger {
   double bornMarkers = 0;  ///< paid by escaped markers
   double bornPockets = 0;  ///< paid by collapsed pockets
@@ -12,11 +12,10 @@ struct GasLedger {
   double burst = 0, killed = 0,
          left = 0;          ///< given back to the air, removed by the scene, gone from the domain
   double notEntrained = 0;  ///< leavers below the onset speed: booked, never a bubble
-  double faded = 0;         ///< waited in a reservoir for a bubble in vain
   double inBubbles = 0, inReservoirs = 0;  ///< held at the end
 
   double entered() const { return bornMarkers + bornPockets + bornSources + grown; }
-  double imbalance() const { return inBubbles + inReservoirs - (entered() - faded - burst - killed - left); }
+  double imbalance() const { return inBubbles + inReservoirs - (entered() - burst - killed - left); }
 };
 
 enum class BirthCause { marker, pocket, source, scene };

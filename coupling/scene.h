@@ -80,7 +80,6 @@ struct EntrainmentSpec {
   /// more than 1.
   double onset = 1;
   double blockSize = 5e-3;                           ///< edge of a gas reservoir [m], 1e-4 to 0.1
-  double reservoirLife = 0.25;                       ///< of gas in a reservoir [s], 1e-3 to 1e9
   double medianRadius = 0.75e-3;                     ///< lognormal radius distribution: median [m]
   double sigma = 0.3;                                ///< of ln r [-], 0 to 2
   double minRadius = 0.375e-3, maxRadius = 1.25e-3;  ///< cut [m]

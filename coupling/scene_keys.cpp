@@ -167,8 +167,6 @@ KeyTable entrainmentTable() {
       .key("length", &EntrainmentSpec::length, {1e-5, 0.1, "m"}, "L_e, thickness of the captured air film")
       .key("onset", &EntrainmentSpec::onset, {0, 10, "m/s"}, "smallest impact speed that entrains")
       .key("block_size", &EntrainmentSpec::blockSize, {1e-4, 0.1, "m"}, "edge of the blocks that collect gas")
-      .key("reservoir_life", &EntrainmentSpec::reservoirLife, {1e-3, 1e9, "s"},
-           "in which gas that pays no bubble goes back to the air")
       .key("median_radius", &EntrainmentSpec::medianRadius, {1e-5, 0.1, "m"}, "of the lognormal distribution")
       .key("sigma", &EntrainmentSpec::sigma, {0, 2, "-"}, "of ln r")
       .key("min_radius", &EntrainmentSpec::minRadius, {1e-5, 0.1, "m"}, "smallest bubble")

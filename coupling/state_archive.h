@@ -163,10 +163,10 @@ void archive(Archive& a, foam::BubbleStore& bubbles) {
 
 template <typename Archive>
 void archive(Archive& a, GasLedger& gas) {
-  auto& [bornMarkers, bornPockets, bornSources, grown, burst, killed, left, notEntrained, faded, inBubbles,
+  auto& [bornMarkers, bornPockets, bornSources, grown, burst, killed, left, notEntrained, inBubbles,
          inReservoirs] = gas;
-  archiveAll(a, bornMarkers, bornPockets, bornSources, grown, burst, killed, left, notEntrained, faded,
-             inBubbles, inReservoirs);
+  archiveAll(a, bornMarkers, bornPockets, bornSources, grown, burst, killed, left, notEntrained, inBubbles,
+             inReservoirs);
 }
 
 template <typename Archive>

@@ -131,7 +131,6 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("gas_left", "m^3", "gone from the domain", [](const R& r) { return r.gas.left; }),
       step("gas_not_entrained", "m^3", "lost by the level set below the onset",
            [](const R& r) { return r.gas.notEntrained; }),
-      step("gas_faded", "m^3", "paid no bubble in time", [](const R& r) { return r.gas.faded; }),
       step("gas_in_bubbles", "m^3", "held at the end", [](const R& r) { return r.gas.inBubbles; }),
       step("gas_in_reservoirs", "m^3", "held at the end", [](const R& r) { return r.gas.inReservoirs; }),
       step("gas_imbalance", "m^3", "what the ledger does not explain",

@@ -21,9 +21,6 @@ std::vector<fluid::EscapedMarker> leavers(int n, double gas, double speed) {
   return markers;
 }
 
-/// Too short for gas to fade in.
-constexpr double kNoTime = 0;
-
 double gasOf(const std::vector<Birth>& births) {
   double sum = 0;
   for (const Birth& b : births) sum += ball(b.bubble.radius);
@@ -38,7 +35,7 @@ TEST(Entrainment, GasOfLeaversEqualsBubblesPlusReservoirs) {
   GasLedger ledger;
   double born = 0;
   for (int step = 0; step < 20; ++step)
-    born += gasOf(entrainment.step(leavers(300, 1e-9, 1.01 * spec.onset), {}, kNoTime, reservoirs, ledger));
+    born += gasOf(entrainment.step(leavers(300, 1e-9, 1.01 * spec.onset), {}, reservoirs, ledger));
   const double paid = 20 * 300 * 1e-9 * spec.length / dx;
   EXPECT_NEAR(ledger.bornMarkers, paid, kRoundOff * paid);
   EXPECT_NEAR(born + ledger.inReservoirs, paid, kRoundOff * paid);
@@ -49,8 +46,7 @@ TEST(Entrainment, SlowLeaversAreBookedAndGiveNoBubble) {
   Reservoirs reservoirs;
   GasLedger ledger;
   EXPECT_TRUE(
-      entrainment.step(leavers(1000, 1e-8, 0.99 * EntrainmentSpec{}.onset), {}, kNoTime, reservoirs, ledger)
-          .empty());
+      entrainment.step(leavers(1000, 1e-8, 0.99 * EntrainmentSpec{}.onset), {}, reservoirs, ledger).empty());
   EXPECT_EQ(ledger.bornMarkers, 0);
   const double lost = 1000 * 1e-8 * 3.6e-3 / 2.5e-3;
   EXPECT_NEAR(ledger.notEntrained, lost, kRoundOff * lost);
@@ -63,23 +59,10 @@ TEST(Entrainment, CountDoesNotDependOnHowTheGasIsSplit) {
   GasLedger heavyLedger, lightLedger;
   const std::vector<fluid::EscapedMarker> heavy(64, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-28, 2.0});
   const std::vector<fluid::EscapedMarker> light(1024, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-32, 2.0});
-  const auto few = entrainment.step(heavy, {}, kNoTime, heavyBlocks, heavyLedger);
-  const auto many = entrainment.step(light, {}, kNoTime, lightBlocks, lightLedger);
+  const auto few = entrainment.step(heavy, {}, heavyBlocks, heavyLedger);
+  const auto many = entrainment.step(light, {}, lightBlocks, lightLedger);
   ASSERT_EQ(few.size(), many.size());
   for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].bubble.radius, many[i].bubble.radius);
-}
-
-TEST(Entrainment, GasThatPaysNoBubbleFades) {
-  EntrainmentSpec spec;
-  const Entrainment entrainment(spec, spec.length, 7);  // L_e = dx: no scaling
-  Reservoirs reservoirs;
-  GasLedger ledger;
-  const double gas = 0.1 * ball(spec.minRadius);
-  ASSERT_TRUE(entrainment.step(leavers(1, gas, 2), {}, kNoTime, reservoirs, ledger).empty());
-  ASSERT_TRUE(entrainment.step({}, {}, spec.reservoirLife, reservoirs, ledger).empty());
-  EXPECT_NEAR(ledger.inReservoirs, gas * std::exp(-1), kRoundOff * gas);
-  EXPECT_NEAR(ledger.faded, gas * (1 - std::exp(-1)), kRoundOff * gas);
-  EXPECT_NEAR(ledger.imbalance(), 0, kRoundOff * gas);
 }
 
 TEST(Entrainment, RadiiFollowTheCutLognormal) {
@@ -108,7 +91,7 @@ TEST(Entrainment, PocketsPayTheirGasUnderTheirOwnCause) {
   GasLedger ledger;
   const double gas = 5e-8;
   const auto births =
-      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 1.2}}, kNoTime, reservoirs, ledger);
+      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 1.2}}, reservoirs, ledger);
   EXPECT_NEAR(gasOf(births) + ledger.inReservoirs, gas, kRoundOff * gas);
   EXPECT_NEAR(ledger.bornPockets, gas, kRoundOff * gas);
   ASSERT_FALSE(births.empty());
