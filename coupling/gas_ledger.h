@@ -11,7 +11,7 @@ struct GasLedger {
   double grown = 0;        ///< taken up from dissolved gas
   double burst = 0, killed = 0,
          left = 0;          ///< given back to the air, removed by the scene, gone from the domain
-  double notEntrained = 0;  ///< leavers below the onset speed: booked, never a bubble
+  double notEntrained = 0;  ///< leavers below the onset: booked, never a bubble
   double inBubbles = 0, inReservoirs = 0;  ///< held at the end
 
   double entered() const { return bornMarkers + bornPockets + bornSources + grown; }

@@ -79,7 +79,10 @@ struct EntrainmentSpec {
   /// drop or a jet that lands at 0.8 to 0.9 m/s remember less than 0.9, a third of those of the pouring scene
   /// more than 1.
   double onset = 1;
-  double blockSize = 5e-3;                           ///< edge of a gas reservoir [m], 1e-4 to 0.1
+  double blockSize = 1e-2;  ///< edge of a gas reservoir [m], 1e-4 to 0.1
+  /// Gas that a block must have got lately before it pays, in mean bubbles [-], 0 to 1e6, and what is lately
+  /// [s], 1e-3 to 1e9. A soft jet gives at most 3, as single puffs; the blocks under a plunging one get tens.
+  double onsetBubbles = 10, onsetMemory = 0.25;
   double medianRadius = 0.75e-3;                     ///< lognormal radius distribution: median [m]
   double sigma = 0.3;                                ///< of ln r [-], 0 to 2
   double minRadius = 0.375e-3, maxRadius = 1.25e-3;  ///< cut [m]

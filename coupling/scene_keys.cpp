@@ -167,6 +167,9 @@ KeyTable entrainmentTable() {
       .key("length", &EntrainmentSpec::length, {1e-5, 0.1, "m"}, "L_e, thickness of the captured air film")
       .key("onset", &EntrainmentSpec::onset, {0, 10, "m/s"}, "smallest impact speed that entrains")
       .key("block_size", &EntrainmentSpec::blockSize, {1e-4, 0.1, "m"}, "edge of the blocks that collect gas")
+      .key("onset_bubbles", &EntrainmentSpec::onsetBubbles, {0, 1e6, "-"},
+           "a block pays once it was offered the gas of this many mean bubbles")
+      .key("onset_memory", &EntrainmentSpec::onsetMemory, {1e-3, 1e9, "s"}, "in about this time")
       .key("median_radius", &EntrainmentSpec::medianRadius, {1e-5, 0.1, "m"}, "of the lognormal distribution")
       .key("sigma", &EntrainmentSpec::sigma, {0, 2, "-"}, "of ln r")
       .key("min_radius", &EntrainmentSpec::minRadius, {1e-5, 0.1, "m"}, "smallest bubble")

@@ -88,7 +88,7 @@ struct Simulation::Internals {
 
   StepReport attempt(double dt);
   void stepLiquid(double dt, StepReport& report);
-  void entrain(StepReport& report);
+  void entrain(double dt, StepReport& report);
   void stepFoam(double dt, StepReport& report);
   void takeFoamEvents(foam::FoamStepReport& happened, StepReport& report);
   void removeLeavers(StepReport& report);
@@ -124,12 +124,12 @@ void Simulation::Internals::stepLiquid(double dt, StepReport& report) {
   report.secondsLiquid = watch.seconds();
 }
 
-void Simulation::Internals::entrain(StepReport& report) {
+void Simulation::Internals::entrain(double dt, StepReport& report) {
   const Stopwatch watch;
   const auto escaped = liquid.takeEscaped();
   const auto pockets = liquid.takeCollapsedPockets();
   if (scene.coupling.entrainment.enabled) {
-    for (const Birth& birth : entrainment.step(escaped, pockets, reservoirs, gas)) {
+    for (const Birth& birth : entrainment.step(escaped, pockets, dt, reservoirs, gas)) {
       const std::uint64_t id = bubbles.add(birth.bubble);
       report.events.push_back(birthEvent(birth, id, bubbles.gas.back(), report.time));
       ++report.births;
@@ -208,7 +208,7 @@ StepReport Simulation::Internals::attempt(double dt) {
   report.dt = dt;
   report.time = time + dt;
   stepLiquid(dt, report);
-  entrain(report);
+  entrain(dt, report);
   stepFoam(dt, report);
   removeLeavers(report);
   book(dt, report);

@@ -114,9 +114,9 @@ template <typename Archive>
 void archive(Archive& a, Reservoirs& reservoirs) {
   const std::size_t count = a.length(reservoirs.size());
   const auto entry = [&a](BlockIndex& block, Reservoir& reservoir) {
-    auto& [gas, draws] = reservoir;
+    auto& [gas, recent, draws] = reservoir;
     for (int& index : block) archive(a, index);
-    archive(a, gas), archive(a, draws);
+    archiveAll(a, gas, recent, draws);
   };
   if constexpr (Archive::kReads) {
     reservoirs.clear();
