@@ -117,6 +117,57 @@ float patchDistance(const Seed& s, float rx, float ry, float rz) {
   return beyond > 0 ? std::sqrt(height * height + beyond * beyond) : std::abs(height);
 }
 
+/// Cells looked at together: a loop over them vectorises into gathers.
+constexpr int kBatch = 64;
+
+/// Places of a batch of cells, in index units.
+struct alignas(64) CellBatch {
+  float x[kBatch], y[kBatch], z[kBatch];
+};
+
+/// Places of the seeds, in index units.
+struct SeedView {
+  const float *x, *y, *z;
+};
+
+/// The nearer of two seeds to a cell; -1 is none, ties go to the lower number.
+struct NearestSeed {
+  std::int32_t seed = -1;
+  float square = std::numeric_limits<float>::max();
+
+  void offer(const SeedView& seeds, std::int32_t other, float x, float y, float z) {
+    const std::int32_t known = other < 0 ? 0 : other;
+    const float dx = x - seeds.x[known], dy = y - seeds.y[known], dz = z - seeds.z[known];
+    const float distance = dx * dx + dy * dy + dz * dz;
+    const bool nearer = (distance < square) | ((distance == square) & (other < seed));
+    const bool taken = nearer & (other >= 0);
+    seed = taken ? other : seed;
+    square = taken ? distance : square;
+  }
+};
+
+/// For each cell of a batch the nearest of the seeds that its neighbours know and, unless `outwardsOnly`,
+/// itself. On its own so that nothing it reads can alias what it writes.
+[[gnu::noinline]] void nearestSeeds(const std::int32_t* __restrict seedOf, int si, int sj, bool outwardsOnly,
+                                    SeedView seeds, const std::int32_t* __restrict cell, int count,
+                                    const float* __restrict atX, const float* __restrict atY,
+                                    const float* __restrict atZ, std::int32_t* __restrict nearest) {
+  const std::int32_t hidden = outwardsOnly ? -1 : 0;  // all bits set: none
+  for (int n = 0; n < count; ++n) {
+    const std::int32_t c = cell[n];
+    const float x = atX[n], y = atY[n], z = atZ[n];
+    NearestSeed best;
+    best.offer(seeds, seedOf[c] | hidden, x, y, z);
+    best.offer(seeds, seedOf[c - si], x, y, z);
+    best.offer(seeds, seedOf[c + si], x, y, z);
+    best.offer(seeds, seedOf[c - sj], x, y, z);
+    best.offer(seeds, seedOf[c + sj], x, y, z);
+    best.offer(seeds, seedOf[c - 1], x, y, z);
+    best.offer(seeds, seedOf[c + 1], x, y, z);
+    nearest[n] = best.seed;
+  }
+}
+
 /// Marks one row of cells that differ in sign from a neighbour. On its own so that nothing the loop reads can
 /// alias the bytes it writes.
 void markCrossedRow(const float* __restrict p, std::uint8_t* __restrict mark, std::ptrdiff_t si,
@@ -182,38 +233,17 @@ Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, const 
 void Reinitializer::plantSeeds(const DenseField<float>& phi) {
   const auto cells = layers_.layer(0);
   seeds_.resize(cells.size());
-  places_.resize(cells.size());
+  for (std::vector<float>* column : {&seedX_, &seedY_, &seedZ_}) column->resize(cells.size());
   forEachRow(grid_.cells, [&](int i, int j) { std::fill_n(&seedOf_(i, j, 0), grid_.cells.z(), -1); });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size()), [&](const auto& range) {
     RowCursor at(seedOf_);
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
       at.seek(cells[n]);
       seeds_[n] = findSeed(phi, {at.i, at.j, at.k});
-      places_[n] = {seeds_[n].x, seeds_[n].y, seeds_[n].z};
+      seedX_[n] = seeds_[n].x, seedY_[n] = seeds_[n].y, seedZ_[n] = seeds_[n].z;
       seedOf_.data()[cells[n]] = static_cast<std::int32_t>(n);
     }
   });
-}
-
-/// The nearest of the seeds that the neighbours of a cell know and, unless `outwardsOnly`, the cell itself.
-std::int32_t Reinitializer::nearestSeed(const RowCursor& at, std::int32_t offset, bool outwardsOnly) const {
-  const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
-  const std::int32_t* seedOf = seedOf_.data() + offset;
-  const float x = static_cast<float>(at.i), y = static_cast<float>(at.j), z = static_cast<float>(at.k);
-  std::int32_t best = -1;
-  float nearest = std::numeric_limits<float>::max();
-  const auto offer = [&](std::int32_t seed) {
-    if (seed < 0 || seed == best) return;
-    const Place& s = places_[seed];
-    const float square = (x - s.x) * (x - s.x) + (y - s.y) * (y - s.y) + (z - s.z) * (z - s.z);
-    const bool nearer = square < nearest || (square == nearest && seed < best);
-    nearest = nearer ? square : nearest;
-    best = nearer ? seed : best;
-  };
-  if (!outwardsOnly) offer(*seedOf);
-  for (const std::ptrdiff_t step : {-si, si, -sj, sj, std::ptrdiff_t{-1}, std::ptrdiff_t{1}})
-    offer(seedOf[step]);
-  return best;
 }
 
 void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
@@ -222,11 +252,21 @@ void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
   const auto forEachPart = [&](const auto& body) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), kCellGrain), body);
   };
+  const std::ptrdiff_t si = seedOf_.stride(0), sj = seedOf_.stride(1);
+  const SeedView seeds{seedX_.data(), seedY_.data(), seedZ_.data()};
   forEachPart([&](const auto& range) {
     RowCursor at(seedOf_);
-    for (std::size_t n = range.begin(); n < range.end(); ++n) {
-      at.seek(cells[n]);
-      update_[n] = nearestSeed(at, cells[n], outwardsOnly);
+    CellBatch batch;
+    for (std::size_t first = range.begin(); first < range.end(); first += kBatch) {
+      const int count = static_cast<int>(std::min<std::size_t>(kBatch, range.end() - first));
+      for (int n = 0; n < count; ++n) {
+        at.seek(cells[first + n]);
+        batch.x[n] = static_cast<float>(at.i);
+        batch.y[n] = static_cast<float>(at.j);
+        batch.z[n] = static_cast<float>(at.k);
+      }
+      nearestSeeds(seedOf_.data(), static_cast<int>(si), static_cast<int>(sj), outwardsOnly, seeds,
+                   cells.data() + first, count, batch.x, batch.y, batch.z, update_.data() + first);
     }
   });
   forEachPart([&](const auto& range) {

@@ -36,17 +36,13 @@ class Reinitializer {
   void plantSeeds(const DenseField<float>& phi);
   void spreadLayer(int layer, bool outwardsOnly);
   void measure(DenseField<float>& phi) const;
-  std::int32_t nearestSeed(const RowCursor& at, std::int32_t offset, bool outwardsOnly) const;
 
   GridSpec grid_;
   LayerList layers_;
   DenseField<std::uint8_t> kinks_;
-  /// Where a seed lies, apart from the rest of it: what the search for the nearest one reads.
-  struct alignas(16) Place {
-    float x, y, z;
-  };
-  std::vector<Seed> seeds_;          ///< of the cells of layer 0, in their order
-  std::vector<Place> places_;        ///< of the same
+  std::vector<Seed> seeds_;  ///< of the cells of layer 0, in their order
+  std::vector<float> seedX_, seedY_,
+      seedZ_;                        ///< where they lie, apart: what the search for the nearest one reads
   DenseField<std::int32_t> seedOf_;  ///< nearest seed known to a cell, -1 for none
   std::vector<std::int32_t> update_;
 };
