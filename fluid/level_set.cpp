@@ -166,18 +166,35 @@ float laplacian(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj) {
   return p[si] + p[-si] + p[sj] + p[-sj] + p[1] + p[-1] - 6 * p[0];
 }
 
-/// Part of one octant, towards the neighbours at offsets (di, dj, dk), below zero. Linear interpolation
-/// between centres overstates the mean of phi over the cell by laplacian/12: `shift` takes that out.
-double octantFraction(const float* p, std::ptrdiff_t di, std::ptrdiff_t dj, std::ptrdiff_t dk, float shift) {
-  const float v000 = p[0], v001 = p[dk], v010 = p[dj], v011 = p[dj + dk];
-  const float v100 = p[di], v101 = p[di + dk], v110 = p[di + dj], v111 = p[di + dj + dk];
+/// The eight octants of a cell, side by side so that the sums over their corners vectorise: trilinear phi in
+/// the middle of each and its change across the octant along each axis.
+struct alignas(32) Octants {
+  float value[8], gx[8], gy[8], gz[8];
+};
+
+/// Octant n leans towards the neighbours at +stride along x, y, z where bit 2, 1, 0 of n is set. Linear
+/// interpolation between centres overstates the mean of phi over the cell by laplacian/12: `shift` takes that
+/// out.
+void findOctants(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float shift,
+                 Octants& __restrict octants) {
+  alignas(32) float corner[8][8];  // [corner][octant]
+  for (int n = 0; n < 8; ++n) {
+    const std::ptrdiff_t di = n & 4 ? si : -si, dj = n & 2 ? sj : -sj, dk = n & 1 ? 1 : -1;
+    const float* near[4] = {p, p + dj, p + di, p + di + dj};
+    for (int c = 0; c < 4; ++c) corner[2 * c][n] = near[c][0], corner[2 * c + 1][n] = near[c][dk];
+  }
   const float q = 0.25f;
-  const float c00 = lerp(v000, v001, q), c01 = lerp(v010, v011, q);
-  const float c10 = lerp(v100, v101, q), c11 = lerp(v110, v111, q);
-  const float c0 = lerp(c00, c01, q), c1 = lerp(c10, c11, q);
-  const float gz = lerp(lerp(v001 - v000, v011 - v010, q), lerp(v101 - v100, v111 - v110, q), q);
-  return planeFraction(lerp(c0, c1, q) - shift, 0.5f * (c1 - c0), 0.5f * lerp(c01 - c00, c11 - c10, q),
-                       0.5f * gz);
+  for (int n = 0; n < 8; ++n) {
+    const float v000 = corner[0][n], v001 = corner[1][n], v010 = corner[2][n], v011 = corner[3][n];
+    const float v100 = corner[4][n], v101 = corner[5][n], v110 = corner[6][n], v111 = corner[7][n];
+    const float c00 = lerp(v000, v001, q), c01 = lerp(v010, v011, q);
+    const float c10 = lerp(v100, v101, q), c11 = lerp(v110, v111, q);
+    const float c0 = lerp(c00, c01, q), c1 = lerp(c10, c11, q);
+    octants.value[n] = lerp(c0, c1, q) - shift;
+    octants.gx[n] = 0.5f * (c1 - c0);
+    octants.gy[n] = 0.5f * lerp(c01 - c00, c11 - c10, q);
+    octants.gz[n] = 0.5f * lerp(lerp(v001 - v000, v011 - v010, q), lerp(v101 - v100, v111 - v110, q), q);
+  }
 }
 
 /// The interval of [-1/2, 1/2] on which value + slope s < 0.
@@ -232,9 +249,11 @@ float liquidFractionOfCell(const DenseField<float>& phi, float dx, int i, int j,
   if (std::abs(*p) > kUncutDistance * dx) return *p < 0 ? 1.0f : 0.0f;
   const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
   const float shift = std::clamp(laplacian(p, si, sj), -kMaxLaplacian * dx, kMaxLaplacian * dx) / 12;
+  Octants octants;
+  findOctants(p, si, sj, shift, octants);
   double sum = 0;
-  for (int o = 0; o < 8; ++o)
-    sum += octantFraction(p, o & 4 ? si : -si, o & 2 ? sj : -sj, o & 1 ? 1 : -1, shift);
+  for (int n = 0; n < 8; ++n)
+    sum += planeFraction(octants.value[n], octants.gx[n], octants.gy[n], octants.gz[n]);
   return static_cast<float>(sum / 8);
 }
 

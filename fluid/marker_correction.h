@@ -25,11 +25,22 @@ class MarkerCorrection {
     std::int32_t cell;  ///< offset in phi
     float plus, minus;  ///< best value of either sign [m]
   };
-  void collect(float dx, MarkerSign sign, const MarkerSet& markers, const DenseField<float>& phi);
-  void offerSphere(float dx, MarkerSign sign, float x, float y, float z, float radius,
-                   const DenseField<float>& phi);
+  struct Value {
+    std::int32_t cell;  ///< offset in phi
+    float value;        ///< of a marker's sphere there [m], > 0 inside
+  };
+  /// What a chunk of markers has to offer.
+  struct Chunk {
+    std::size_t escaped = 0;
+    std::vector<Value> values;
+  };
+  static void addSphere(float dx, float x, float y, float z, float radius, const DenseField<float>& phi,
+                        std::vector<Value>& values);
+  void findEscaped(float dx, MarkerSign sign, const DenseField<float>& phi, MarkerSet& markers);
+  void collect(MarkerSign sign, const DenseField<float>& phi);
   Offer& offerAt(std::int32_t cell, float phi);
 
+  std::vector<Chunk> chunks_;
   std::vector<Offer> offers_;
   std::vector<std::int32_t> slot_;  ///< per point of phi: its offer, -1 for none
   std::size_t escapedCount_ = 0;
