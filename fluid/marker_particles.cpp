@@ -14,10 +14,6 @@ namespace {
 constexpr float kWallGap = 0.1f;
 /// Deeper than this behind a wall a marker is removed [cells]: a wall swept over it.
 constexpr float kLostDepth = 1;
-/// A marker in a cell whose centre is further from walls than this is clear of them [cells]: interpolation
-/// looks a space diagonal away.
-constexpr float kClearDistance = 2;
-static_assert(kClearDistance > kWallGap + 1.74f);
 
 /// Where a marker may be along one axis [cells]: a closed side keeps it inside, an open one lets it go.
 struct Range {
@@ -72,18 +68,19 @@ void moveChunk(const MacView& wind, const Eigen::Vector3f& top, const std::array
   keepWithin(range[2], count, endZ.data(), z);
 }
 
-/// Notes which markers may be outside the grid or beside a wall: 1, else 0.
-void findDoubtful(const FieldView& psi, const Eigen::Vector3f& top, float clear, int count,
+/// Notes which markers are outside the grid or closer to a wall than `gap` [m]: 1, else 0. psi has values
+/// inside the grid only: it is sampled between cell centres.
+void findTouching(const FieldView& psi, const Eigen::Vector3f& top, float gap, int count,
                   const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                  std::int32_t* __restrict doubtful) {
+                  std::int32_t* __restrict touching) {
   const float topX = top.x(), topY = top.y(), topZ = top.z();
   for (int n = 0; n < count; ++n) {
     const float ix = keptInside(x[n], topX), iy = keptInside(y[n], topY), iz = keptInside(z[n], topZ);
-    const int i = static_cast<int>(ix), j = static_cast<int>(iy), k = static_cast<int>(iz);
-    const int cell = (i + kGhost) * psi.strideI + (j + kGhost) * psi.strideJ + k + kGhost;
     const float moved = std::abs(ix - x[n]) + std::abs(iy - y[n]) + std::abs(iz - z[n]);
-    const float distance = psi.corner[cell];
-    doubtful[n] = moved <= 0 ? (distance >= clear ? 0 : 1) : 1;
+    const float distance = sampleInner(psi, keptInside(ix - 0.5f, topX - 1), keptInside(iy - 0.5f, topY - 1),
+                                       keptInside(iz - 0.5f, topZ - 1));
+    const bool clear = (moved <= 0) & (distance >= gap);
+    touching[n] = clear ? 0 : 1;
   }
 }
 
@@ -124,14 +121,14 @@ void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double
   const std::array<Range, 3> range = freeRange(scene);
   const Eigen::Vector3f top = scene.grid.cells.cast<float>();
   const float cellsPerSpeed = static_cast<float>(dt / scene.grid.dx);
-  const float clear = kClearDistance * static_cast<float>(scene.grid.dx);
+  const float gap = kWallGap * static_cast<float>(scene.grid.dx);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     moveChunk(wind, top, range, cellsPerSpeed, markers, first, last);
-    MarkerCells doubtful;
-    findDoubtful(psi, top, clear, static_cast<int>(last - first), markers.x.data() + first,
-                 markers.y.data() + first, markers.z.data() + first, doubtful.data());
+    MarkerCells touching;
+    findTouching(psi, top, gap, static_cast<int>(last - first), markers.x.data() + first,
+                 markers.y.data() + first, markers.z.data() + first, touching.data());
     for (std::size_t n = first; n < last; ++n)
-      if (doubtful[n - first]) keepFree(scene, psi, markers, n);
+      if (touching[n - first]) keepFree(scene, psi, markers, n);
   });
 }
 
