@@ -109,9 +109,9 @@ bool DiscClipper::pickLines(std::size_t planes, double discRadius2) {
 
 /// Cuts each line by the disc and all other lines; false if lines cut the disc and nothing is left.
 bool DiscClipper::clipLines(double discRadius2) {
+  centreInside_ = true;
   if (lines_.count == 0) return true;
   scaleLines(discRadius2);
-  bool anyLeft = false;
   for (std::size_t k = 0; k < lines_.count; k += kLanes) {
     const Lanes ux = loadLanes(&lines_.ux[k]), uy = loadLanes(&lines_.uy[k]),
                 offset = loadLanes(&lines_.offset[k]);
@@ -130,8 +130,22 @@ bool DiscClipper::clipLines(double discRadius2) {
     }
     storeLanes(&lines_.t1[k], t1), storeLanes(&lines_.t2[k], t2);
   }
-  for (std::size_t k = 0; k < lines_.count; ++k) anyLeft |= lines_.t2[k] > lines_.t1[k];
-  return anyLeft;
+  keepEdges();
+  return lines_.count > 0;
+}
+
+/// Drops the lines of which nothing bounds the film: about half of them.
+void DiscClipper::keepEdges() {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < lines_.count; ++k) {
+    centreInside_ &= !(lines_.offset[k] < 0);
+    for (auto* column : {&lines_.ux, &lines_.uy, &lines_.offset, &lines_.shift, &lines_.t1, &lines_.t2})
+      (*column)[kept] = (*column)[k];
+    kept += lines_.t2[k] > lines_.t1[k];
+  }
+  lines_.count = kept;
+  for (std::size_t k = kept; k < paddedToLanes(kept); ++k)
+    lines_.offset[k] = lines_.shift[k] = lines_.t1[k] = lines_.t2[k] = 0;
 }
 
 /// Makes the normals unit vectors and lets each line end at the rim. Padded lines are empty.
@@ -178,23 +192,20 @@ struct SolidSum {
 void DiscClipper::integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                             FilmShape& out) const {
   const Lanes zero = {};
-  Lanes triangles = {}, angles = {}, shifts = {}, outside = {};
+  Lanes triangles = {}, angles = {}, shifts = {};
   SolidSum near(height), far(balls.farHeight);
   for (std::size_t k = 0; k < lines_.count; k += kLanes) {
-    const Lanes end1 = loadLanes(&lines_.t1[k]), end2 = loadLanes(&lines_.t2[k]);
-    const auto left = end2 > end1;
-    const Lanes t1 = left ? end1 : zero, t2 = left ? end2 : zero, offset = loadLanes(&lines_.offset[k]);
-    const Lanes sign = offset < 0 ? zero - 1 : zero + 1, length = t2 - t1;
-    const Lanes side = left ? sign * offset : zero;
+    const Lanes t1 = loadLanes(&lines_.t1[k]), t2 = loadLanes(&lines_.t2[k]);
+    const Lanes offset = loadLanes(&lines_.offset[k]), length = t2 - t1;
+    const Lanes sign = offset < 0 ? zero - 1 : zero + 1, side = sign * offset;
     const Lanes angle = sign * upperAngle<Lanes>(side * length, side * side + t1 * t2);
-    triangles += sign * side * length;
+    triangles += offset * length;
     shifts += loadLanes(&lines_.shift[k]) * length;
     angles += angle;
-    outside += offset < 0 ? zero + 1 : zero;
     near.add(sign, side, t1, t2, angle);
     far.add(sign, side, t1, t2, angle);
   }
-  out.arc = (sumOf(outside) > 0 ? 0 : 2 * kPi) - sumOf(angles);
+  out.arc = (centreInside_ ? 2 * kPi : 0) - sumOf(angles);
   if (out.arc < kAngleRoundOff * static_cast<double>(lines_.count)) out.arc = 0;
   out.area = (sumOf(triangles) + discRadius2 * out.arc) / 2;
   out.areaShift = sumOf(shifts) + out.arc * (balls.radius * balls.radiusShift - height * heightShift);
@@ -204,21 +215,17 @@ void DiscClipper::integrate(double height, double heightShift, double discRadius
 
 Eigen::Vector3d DiscClipper::pointInside() const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  int edges = 0;
   for (std::size_t k = 0; k < lines_.count; ++k) {
-    if (!(lines_.t2[k] > lines_.t1[k])) continue;
     const Eigen::Vector2d normal(lines_.ux[k], lines_.uy[k]), along(-lines_.uy[k], lines_.ux[k]);
     sum += lines_.offset[k] * normal + (lines_.t1[k] + lines_.t2[k]) / 2 * along;
-    ++edges;
   }
-  const Eigen::Vector2d mean = sum / std::max(edges, 1);
+  const Eigen::Vector2d mean = sum / std::max(1.0, static_cast<double>(lines_.count));
   return frame_.origin + mean.x() * frame_.u + mean.y() * frame_.v;
 }
 
 double DiscClipper::farthestCorner2() const {
   double farthest2 = 0;
   for (std::size_t k = 0; k < lines_.count; ++k) {
-    if (!(lines_.t2[k] > lines_.t1[k])) continue;
     const double end = std::max(std::abs(lines_.t1[k]), std::abs(lines_.t2[k]));
     farthest2 = std::max(farthest2, lines_.offset[k] * lines_.offset[k] + end * end);
   }

@@ -41,7 +41,8 @@ class DiscClipper {
   double farthestCorner2() const;
 
  private:
-  /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film.
+  /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film; once
+  /// clipped, only those that have one.
   struct Lines {
     std::size_t count = 0;
     std::vector<std::uint32_t> plane;  ///< each comes from
@@ -63,12 +64,14 @@ class DiscClipper {
   bool pickLines(std::size_t planes, double discRadius2);
   void scaleLines(double discRadius2);
   bool clipLines(double discRadius2);
+  void keepEdges();
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                  FilmShape& out) const;
 
   std::vector<double> px_, py_, toPlane_, alongNormal_, slope2_;  ///< of the planes, in the disc's frame
   Frame frame_;
   Lines lines_;
+  bool centreInside_ = true;  ///< no line cuts the disc's centre away
 };
 
 }  // namespace spume::foam
