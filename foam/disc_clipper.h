@@ -50,6 +50,7 @@ class DiscClipper {
     std::vector<double> offset;        ///< D, signed distance from the disc's centre [m]
     std::vector<double> slope2;        ///< squared sine of the angle between the planes [-]
     std::vector<double> shift;         ///< what undoing the jitter adds to D [m]
+    std::vector<double> half;          ///< where the line meets the rim, at -half and half along it [m]
     std::vector<double> t1, t2;        ///< ends of the edge along the line [m]; t2 > t1 if anything is left
 
     void resize(std::size_t lines);
@@ -65,6 +66,7 @@ class DiscClipper {
   void scaleLines(double discRadius2);
   bool clipLines(double discRadius2);
   void keepEdges();
+  double spannedAngle() const;
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                  FilmShape& out) const;
 
@@ -72,6 +74,7 @@ class DiscClipper {
   Frame frame_;
   Lines lines_;
   bool centreInside_ = true;  ///< no line cuts the disc's centre away
+  bool closed_ = false;       ///< nothing is left of the rim
 };
 
 }  // namespace spume::foam

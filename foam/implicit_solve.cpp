@@ -43,7 +43,7 @@ SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, d
   const bool iterative = solver_ != LinearSolver::cholmod;
   if (iterative) report.iterations = iterate(a, b, goal, maxIterations, x);
   double norm = iterative ? residual(a, b, x) : first;
-  if (norm > goal) {
+  if (!(norm <= goal)) {
     report.fellBack = solveDirectly(a, b, goal, x) && iterative;
     norm = residual(a, b, x);
   }

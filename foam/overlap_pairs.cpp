@@ -69,7 +69,7 @@ std::uint64_t OverlapPairs::Levels::keyOf(double radius, const Eigen::Vector3d& 
 }
 
 /// Calls visit(run) for all cells of `level` that the box meets. A box around one cell of the same or a finer
-/// level, widened by at most one cell each way, meets up to three cells along each axis, four with round-off.
+/// level, widened by at most one cell each way, meets up to four cells along each axis.
 template <typename Visit>
 void OverlapPairs::Levels::visitBox(const Level& level, const Eigen::Vector3d& low,
                                     const Eigen::Vector3d& high, const Visit& visit) const {
@@ -95,21 +95,24 @@ bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const st
   return true;
 }
 
-/// Motion common to all bubbles brings none nearer to another: it does not count.
+/// Motion common to all bubbles brings none nearer to another: it need not count.
 bool OverlapPairs::stillValid(const std::vector<Eigen::Vector3d>& position,
                               const std::vector<double>& radius) const {
   const std::size_t n = radius.size();
   if (n != builtRadius_.size() || rows_.start.empty()) return false;
   if (n == 0) return true;
   const auto displacement = [&](std::size_t i) { return (position[i] - builtPosition_[i]).eval(); };
-  const auto add = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a + b).eval(); };
-  const Eigen::Vector3d drift =
-      reduceIndices(n, Eigen::Vector3d::Zero().eval(), displacement, add) / static_cast<double>(n);
-  const auto staysClose = [&](std::size_t i) {
-    const double moved = (displacement(i) - drift).norm() + std::abs(radius[i] - builtRadius_[i]);
-    return moved <= kSkin * builtRadius_[i];
+  const auto allStayClose = [&](const Eigen::Vector3d& drift) {
+    const auto staysClose = [&](std::size_t i) {
+      const double moved = (displacement(i) - drift).norm() + std::abs(radius[i] - builtRadius_[i]);
+      return moved <= kSkin * builtRadius_[i];
+    };
+    return reduceIndices(n, true, staysClose, std::logical_and<>());
   };
-  return reduceIndices(n, true, staysClose, std::logical_and<>());
+  const auto add = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a + b).eval(); };
+  if (allStayClose(Eigen::Vector3d::Zero())) return true;
+  return allStayClose(reduceIndices(n, Eigen::Vector3d::Zero().eval(), displacement, add) /
+                      static_cast<double>(n));
 }
 
 /// Sorts the bubbles by level and cell: sets order_, rank_ and sorted_.
@@ -164,39 +167,43 @@ class OverlapPairs::CellSearch {
       low = low.cwiseMin(sorted_[s].position), high = high.cwiseMax(sorted_[s].position);
       largest = std::max(largest, sorted_[s].radius);
     }
-    clear();
+    runs_.clear();
     const std::size_t own = levels_.usedOfRank[begin];
     for (std::size_t l = own; l < levels_.used.size(); ++l) {
       const double reach = (1 + kSkin) * (largest + levels_.used[l].maxRadius);
-      levels_.visitBox(
-          levels_.used[l], low.array() - reach, high.array() + reach, [&](const CellHash::Run& run) {
-            for (std::int32_t t = l == own ? std::max(run.begin, begin) : run.begin; t < run.end; ++t) add(t);
-          });
+      levels_.visitBox(levels_.used[l], low.array() - reach, high.array() + reach,
+                       [&](const CellHash::Run& run) {
+                         const std::int32_t first = l == own ? std::max(run.begin, begin) : run.begin;
+                         if (first < run.end) runs_.emplace_back(first, run.end);
+                       });
     }
-    pad();
+    gather();
     for (std::int32_t s = begin; s < end; ++s) test(s, pairs);
   }
 
  private:
-  void clear() {
-    rank_.clear();
-    for (auto* column : {&x_, &y_, &z_, &r_}) column->clear();
-  }
-  void add(std::int32_t t) {
-    const auto& [position, radius] = sorted_[t];
-    rank_.push_back(t);
-    x_.push_back(position.x()), y_.push_back(position.y()), z_.push_back(position.z()), r_.push_back(radius);
-  }
-  void pad() {
+  /// Copies what lies in the runs side by side.
+  void gather() {
     constexpr double kNowhere = 1e200;  // its square is infinite: nothing reaches it
-    const std::size_t padded = paddedToLanes(rank_.size());
-    for (auto* column : {&x_, &y_, &z_}) column->resize(padded, kNowhere);
-    r_.resize(padded, 0), near_.resize(padded), hit_.resize(padded);
+    count_ = 0;
+    for (const auto& [first, last] : runs_) count_ += static_cast<std::size_t>(last - first);
+    const std::size_t padded = paddedToLanes(count_);
+    if (x_.size() < padded) {
+      for (auto* column : {&x_, &y_, &z_, &r_}) column->resize(padded);
+      rank_.resize(padded), hit_.resize(padded), near_.resize(padded);
+    }
+    std::size_t k = 0;
+    for (const auto& [first, last] : runs_)
+      for (std::int32_t t = first; t < last; ++t, ++k) {
+        const auto& [position, radius] = sorted_[t];
+        x_[k] = position.x(), y_[k] = position.y(), z_[k] = position.z(), r_[k] = radius, rank_[k] = t;
+      }
+    for (; k < padded; ++k) x_[k] = y_[k] = z_[k] = kNowhere, r_[k] = 0;
   }
 
   void test(std::int32_t s, Half& pairs) {
     const auto& [position, radius] = sorted_[s];
-    for (std::size_t k = 0; k < x_.size(); k += kLanes) {
+    for (std::size_t k = 0; k < count_; k += kLanes) {
       const Lanes dx = loadLanes(&x_[k]) - position.x(), dy = loadLanes(&y_[k]) - position.y(),
                   dz = loadLanes(&z_[k]) - position.z(), reach = (1 + kSkin) * (loadLanes(&r_[k]) + radius);
       const LaneMask near = dx * dx + dy * dy + dz * dz < reach * reach;
@@ -204,7 +211,7 @@ class OverlapPairs::CellSearch {
     }
     // Without branches: about one in ten is a hit, at no place that could be foreseen.
     std::size_t hits = 0;
-    for (std::size_t k = 0; k < rank_.size(); ++k) {
+    for (std::size_t k = 0; k < count_; ++k) {
       hit_[hits] = rank_[k];
       hits += static_cast<std::size_t>(-near_[k]) & static_cast<std::size_t>(rank_[k] > s);
     }
@@ -213,6 +220,8 @@ class OverlapPairs::CellSearch {
 
   const Levels& levels_;
   const std::vector<Sorted>& sorted_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> runs_;  ///< of ranks near the cell
+  std::size_t count_ = 0;                                    ///< of bubbles in them
   std::vector<std::int32_t> rank_, hit_;
   std::vector<std::int64_t> near_;  ///< -1 or 0
   std::vector<double> x_, y_, z_, r_;

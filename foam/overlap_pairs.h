@@ -10,9 +10,9 @@ namespace spume::foam {
 
 /// For every bubble the others near enough to overlap it now or soon: a Verlet list. Two bubbles are
 /// candidates when their distance is below (1 + kSkin)(r_i + r_j) at the time of building, so the list holds
-/// until a bubble has |dx - mean dx| + |dr| > kSkin r. Building is O(n) in the number of bubbles: a
-/// hierarchical grid with one level per radius octave finds each pair from its smaller bubble (performance,
-/// "Foam geometry").
+/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. Building is O(n)
+/// in the number of bubbles: a hierarchical grid with one level per radius octave finds each pair from its
+/// smaller bubble (performance, "Foam geometry").
 ///
 /// Bubbles are numbered here by *rank*: sorted by radius octave, then Morton cell, so that neighbours are
 /// near in memory. Rows list candidates by input index, so that what is summed along a row does not depend on

@@ -14,20 +14,14 @@
 #include <map>
 #include <string>
 
-#include "foam/classification.h"
 #include "foam/foam_solver.h"
-#include "foam/integrator.h"
-#include "foam/near_walls.h"
 #include "foam/power_diagram.h"
-#include "foam/presets.h"
-#include "foam/still_pool.h"
-#include "tests/support/foam_relaxed.h"
+#include "tests/support/floating_foam.h"
 
 namespace spume::foam::test {
 namespace {
 
 constexpr int kWarmUp = 10;  ///< steps before the clock counts: lists are built, the walls have pushed back
-constexpr double kLeastShare = 0.3;  ///< of its ball a bubble's gas fills, for those the foam has swallowed
 
 struct Options {
   int bubbles = 16000;
@@ -47,33 +41,6 @@ struct Options {
     if (name == "pcg_jacobi") solver = LinearSolver::pcgJacobi;
     if (name == "cholmod") solver = LinearSolver::cholmod;
     reference = number(6, 1) != 0;
-  }
-};
-
-/// A cube of relaxed foam that floats in a box open at the top.
-struct FloatingFoam {
-  FoamParams params = makePreset(Preset::physical);
-  BubbleStore bubbles;
-  StillPoolParams box;
-
-  explicit FloatingFoam(const Options& options) {
-    const double wetness = options.wetness;
-    const Balls balls = relaxedFoam(options.bubbles, wetness, 1);
-    const FoamTopology cells = powerCellsOf(balls);
-    Eigen::Vector3d low = balls.position.front(), high = low;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-      bubbles.add({.position = balls.position[i], .radius = balls.radius[i]});
-      bubbles.radius.back() = balls.radius[i];
-      bubbles.gas.back() = std::max(cells.volume[i], kLeastShare * ballVolume(balls.radius[i]));
-      low = low.cwiseMin(balls.position[i]), high = high.cwiseMax(balls.position[i]);
-    }
-    params.wetness = params.wetnessAloft = wetness;
-    params.bursting = false, params.solver = options.solver;
-    const double margin = 0.5e-3;  // [m] the median radius: half the bubbles at a wall stand off it
-    box.gravity = params.gravity, box.density = params.density;
-    box.lower = low - Eigen::Vector3d::Constant(margin), box.upper = high + Eigen::Vector3d::Constant(margin);
-    box.surfaceHeight = low.y() + 0.36 * wetness * wetness * (high - low).y();  // where Archimedes has it
-    box.closed = {true, true, true, false, true, true};
   }
 };
 
@@ -122,7 +89,7 @@ struct Reference {
     withVolumes =
         secondsOf([&] { PowerDiagram().compute(bubbles.position, bubbles.radius, bubbles.id, topology); });
     Integrator integrator(foam.params);
-    couple(integrator, pool, dt, topology, bubbles);
+    coupleOnce(integrator, pool, dt, topology, bubbles);
     const Eigen::SparseMatrix<double> matrix = sparseMatrix(integrator.system());
     const Eigen::Map<const Eigen::VectorXd> right(integrator.impulses().front().data(), matrix.rows());
     Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper,
@@ -131,20 +98,6 @@ struct Reference {
     solver.setTolerance(foam.params.solverTolerance);
     solve = secondsOf([&] { solver.compute(matrix).solve(right).eval(); });
     iterations = solver.iterations();
-  }
-
-  static void couple(Integrator& integrator, const StillPool& pool, double dt, const FoamTopology& topology,
-                     BubbleStore& bubbles) {
-    Surroundings around;
-    around.sample(pool, bubbles.positions());
-    Neighbours neighbours;
-    neighbours.build(bubbles.size(), topology.overlaps);
-    weighSurface(around, topology, neighbours, bubbles);
-    integrator.describe(around, Vectors3(bubbles.size(), Eigen::Vector3d::Zero()), bubbles);
-    integrator.predict(dt);
-    std::vector<NearWalls> walls;
-    findNearWalls(pool, around, bubbles, integrator.reach(dt), walls);
-    integrator.couple(bubbles, topology, neighbours, walls, dt);
   }
 };
 
@@ -175,7 +128,8 @@ void printReference(const Reference& reference, const StepTimes& times) {
 }
 
 int run(const Options& options) {
-  FloatingFoam foam(options);
+  FloatingFoam foam(options.bubbles, options.wetness);
+  foam.params.solver = options.solver;
   const StillPool pool(foam.box);
   FoamSolver solver(foam.params);
   StepTimes times;

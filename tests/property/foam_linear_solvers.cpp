@@ -2,30 +2,18 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "tests/foam_fixtures.h"
-#include "tests/support/foam_relaxed.h"
+#include "foam/foam_solver.h"
+#include "tests/support/floating_foam.h"
 
 namespace spume::foam::test {
 namespace {
 
-/// A block of relaxed foam, half out of a pool, every third bubble pushed.
-BubbleStore stirredFoam(const Balls& balls) {
-  BubbleStore bubbles;
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Eigen::Vector3d velocity(i % 3 == 0 ? 0.1 : 0, 0, 0);
-    bubbles.add(bubbleAt(balls.position[i] - Eigen::Vector3d(0, 5e-3, 0), balls.radius[i], velocity));
-  }
-  return bubbles;
-}
-
-Vectors3 velocitiesAfterStep(const Balls& balls, double wetness, LinearSolver solver, double tolerance) {
-  FoamParams params = waterParams(Preset::physical);
-  params.wetness = params.wetnessAloft = wetness;
-  params.solver = solver, params.solverTolerance = tolerance, params.solverIterations = 5000;
-  FoamSolver foam(params);
-  BubbleStore bubbles = stirredFoam(balls);
-  EXPECT_FALSE(foam.step(bubbles, openPool(params), 5e-3).solverFellBack);
-  return bubbles.velocity;
+/// Velocities after one step of 5 ms from rest, every third bubble pushed.
+Vectors3 velocitiesAfterStep(FloatingFoam foam, LinearSolver solver, double tolerance) {
+  for (std::size_t i = 0; i < foam.bubbles.size(); i += 3) foam.bubbles.velocity[i].x() = 0.1;
+  foam.params.solver = solver, foam.params.solverTolerance = tolerance, foam.params.solverIterations = 5000;
+  EXPECT_FALSE(FoamSolver(foam.params).step(foam.bubbles, StillPool(foam.box), 5e-3).solverFellBack);
+  return foam.bubbles.velocity;
 }
 
 TEST(LinearSolvers, AgreeOnWetAndDenseFoams) {
@@ -34,10 +22,8 @@ TEST(LinearSolvers, AgreeOnWetAndDenseFoams) {
   constexpr double kAgreement = 1e-6;
   for (const double wetness : {0.8, 0.4})
     for (std::uint64_t seed : {1, 2}) {
-      const Balls balls = relaxedFoam(500, wetness, seed);
-      const auto solved = [&](LinearSolver solver) {
-        return velocitiesAfterStep(balls, wetness, solver, kTolerance);
-      };
+      const FloatingFoam foam(500, wetness, seed);
+      const auto solved = [&](LinearSolver solver) { return velocitiesAfterStep(foam, solver, kTolerance); };
       const Vectors3 direct = solved(LinearSolver::cholmod), jacobi = solved(LinearSolver::pcgJacobi),
                      cholesky = solved(LinearSolver::pcgIncompleteCholesky);
       double fastest = 0;
@@ -52,11 +38,11 @@ TEST(LinearSolvers, AgreeOnWetAndDenseFoams) {
 }
 
 TEST(LinearSolvers, ThreadsDoNotChangeABitOfAStep) {
-  const Balls balls = relaxedFoam(3000, 0.4, 3);  // two blocks of rows
+  const FloatingFoam foam(3000, 0.4);  // two blocks of rows
   for (const LinearSolver solver : {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky}) {
     const auto withThreads = [&](std::size_t threads) {
       tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      return velocitiesAfterStep(balls, 0.4, solver, 1e-6);
+      return velocitiesAfterStep(foam, solver, 1e-6);
     };
     const Vectors3 alone = withThreads(1);
     for (std::size_t threads : {2, 4}) EXPECT_EQ(alone, withThreads(threads));

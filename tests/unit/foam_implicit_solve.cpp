@@ -144,8 +144,7 @@ TEST(ImplicitSolve, TheDirectSolverFinishesWhatStalls) {
 
 TEST(ImplicitSolve, SaysSoWhenItDoesNotConverge) {
   BlockSystem a = randomSystem(60, 1e2);
-  for (auto& own : a.own)
-    own -= 1e3 * Eigen::Matrix3d::Identity();  // not positive definite: no factor either
+  for (auto& own : a.own) own.setZero();  // nothing holds it: singular, no solution for most impulses
   for (const LinearSolver kind : kSolvers) {
     Vectors3 x(60, Eigen::Vector3d::Zero());
     EXPECT_FALSE(ImplicitSolve(kind).solve(a, randomVectors(60), 1e-12, 3, x).converged);
