@@ -145,6 +145,10 @@ KeyTable foamTable() {
           .key("burst_reference_radius", &FoamParams::burstReferenceRadius, {1e-6, 1, "m"},
                "see burst_median_life")
           .key("burst_shape", &FoamParams::burstShape, {0.5, 10, "-"}, "Weibull: 2 Rayleigh, 4/3 thin films")
+          .choice("solver", &FoamParams::solver, {"pcg_jacobi", "pcg_ic", "cholmod"},
+                  "of the implicit step: conjugate gradients with diagonal blocks or an incomplete Cholesky "
+                  "factor, "
+                  "or a direct factorisation")
           .key("solver_tolerance", &FoamParams::solverTolerance, {1e-12, 1e-1, "-"}, "relative residual")
           .key("solver_iterations", &FoamParams::solverIterations, {1, 1e5, "-"},
                "limit of the implicit step")

@@ -115,6 +115,8 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("foam_iterations", "-", "of the implicit step",
            [](const R& r) { return r.foam.solverIterations; }),
       step("foam_residual", "-", "of the implicit step", [](const R& r) { return r.foam.solverResidual; }),
+      step("foam_fell_back", "-", "1: its iteration stalled and was finished by the direct solver",
+           [](const R& r) { return r.foam.solverFellBack ? 1 : 0; }),
       step("bubble_max_speed", "m/s", "of the bubbles", [](const R& r) { return r.foam.maxSpeed; }),
       step("bubble_kinetic_energy", "J", "of the bubbles", [](const R& r) { return r.foam.kineticEnergy; }),
       step("volume_error_median", "-", "|V - V0|/V0 of unflagged bubbles",

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "foam/errors.h"
+#include "foam/parallel.h"
 
 namespace spume::foam {
 
@@ -18,8 +20,12 @@ inline void checkBalls(const std::string& who, const std::vector<Eigen::Vector3d
     throw InvalidParameter(who + ": " + std::to_string(position.size()) + " positions, " +
                            std::to_string(radius.size()) + " radii and " + std::to_string(id.size()) +
                            " ids; give as many of each");
+  const auto isBall = [&](std::size_t i) {
+    return radius[i] > 0 && std::isfinite(radius[i]) && position[i].allFinite();
+  };
+  if (reduceIndices(radius.size(), true, isBall, std::logical_and<>())) return;
   for (std::size_t i = 0; i < radius.size(); ++i)
-    if (!(radius[i] > 0) || !std::isfinite(radius[i]) || !position[i].allFinite())
+    if (!isBall(i))
       throw InvalidParameter(who + ": bubble " + std::to_string(id[i]) + " has radius " +
                              std::to_string(radius[i]) +
                              " m; it must be positive, and radius and position finite");

@@ -24,6 +24,9 @@ struct BlockSystem {
   std::vector<std::int32_t> start;   ///< n + 1; couplings of bubble i
   std::vector<std::int32_t> other;
   std::vector<CouplingBlock> block;
+  /// The rows along a curve through space, for solvers that work from neighbour to neighbour; empty: as they
+  /// come.
+  std::vector<std::int32_t> order;
 
   std::size_t size() const { return own.size(); }
   Eigen::Vector3d row(std::size_t i, const Vectors3& v) const {

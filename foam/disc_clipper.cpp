@@ -47,7 +47,7 @@ void CuttingPlanes::resize(std::size_t planes) {
 void DiscClipper::Lines::resize(std::size_t lines) {
   const std::size_t padded = paddedToLanes(lines);
   if (ux.size() >= padded) return;
-  for (auto* column : {&ux, &uy, &offset, &shift, &slope2, &t1, &t2}) column->resize(padded);
+  for (auto* column : {&ux, &uy, &offset, &shift, &slope2, &half, &t1, &t2}) column->resize(padded);
 }
 
 FilmShape DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls) {
@@ -109,9 +109,9 @@ bool DiscClipper::pickLines(std::size_t planes, double discRadius2) {
 
 /// Cuts each line by the disc and all other lines; false if lines cut the disc and nothing is left.
 bool DiscClipper::clipLines(double discRadius2) {
+  centreInside_ = true, closed_ = false;
   if (lines_.count == 0) return true;
   scaleLines(discRadius2);
-  bool anyLeft = false;
   for (std::size_t k = 0; k < lines_.count; k += kLanes) {
     const Lanes ux = loadLanes(&lines_.ux[k]), uy = loadLanes(&lines_.uy[k]),
                 offset = loadLanes(&lines_.offset[k]);
@@ -130,8 +130,25 @@ bool DiscClipper::clipLines(double discRadius2) {
     }
     storeLanes(&lines_.t1[k], t1), storeLanes(&lines_.t2[k], t2);
   }
-  for (std::size_t k = 0; k < lines_.count; ++k) anyLeft |= lines_.t2[k] > lines_.t1[k];
-  return anyLeft;
+  keepEdges();
+  return lines_.count > 0;
+}
+
+/// Drops the lines of which nothing bounds the film: about half of them.
+void DiscClipper::keepEdges() {
+  std::size_t kept = 0;
+  closed_ = true;
+  for (std::size_t k = 0; k < lines_.count; ++k) {
+    centreInside_ &= !(lines_.offset[k] < 0);
+    for (auto* column : {&lines_.ux, &lines_.uy, &lines_.offset, &lines_.shift, &lines_.t1, &lines_.t2})
+      (*column)[kept] = (*column)[k];
+    const bool isLeft = lines_.t2[k] > lines_.t1[k];
+    closed_ &= !isLeft | ((lines_.t1[k] > -lines_.half[k]) & (lines_.t2[k] < lines_.half[k]));
+    kept += isLeft;
+  }
+  lines_.count = kept;
+  for (std::size_t k = kept; k < paddedToLanes(kept); ++k)
+    lines_.offset[k] = lines_.shift[k] = lines_.t1[k] = lines_.t2[k] = 0;
 }
 
 /// Makes the normals unit vectors and lets each line end at the rim. Padded lines are empty.
@@ -147,13 +164,14 @@ void DiscClipper::scaleLines(double discRadius2) {
       storeLanes(&(*column)[k], loadLanes(&(*column)[k]) * inverse);
     const Lanes offset = loadLanes(&lines_.offset[k]), half2 = discRadius2 - offset * offset;
     const Lanes half = squareRoot(half2 > 0 ? half2 : Lanes{});
-    storeLanes(&lines_.t1[k], -half), storeLanes(&lines_.t2[k], half);
+    storeLanes(&lines_.half[k], half), storeLanes(&lines_.t1[k], -half), storeLanes(&lines_.t2[k], half);
   }
 }
 
 namespace {
 
-/// Sums over edges, a lane each, for one centre `height` from the disc's plane.
+/// Sums over edges, a lane each, for one centre `height` from the disc's plane: how far the solid angle of
+/// the triangle from the disc's centre to the edge falls short of the angle the edge spans there.
 struct SolidSum {
   double height2, height;
   Lanes sum = {};
@@ -161,16 +179,31 @@ struct SolidSum {
   explicit SolidSum(double signedHeight)
       : height2(signedHeight * signedHeight), height(std::abs(signedHeight)) {}
 
-  /// Adds the triangle from the disc's centre to an edge; `angle` is what the edge spans there, `side` = |D|.
-  void add(const Lanes& sign, const Lanes& side, const Lanes& t1, const Lanes& t2, const Lanes& angle) {
+  /// Adds an edge; `side` = |D|.
+  void add(const Lanes& sign, const Lanes& side, const Lanes& t1, const Lanes& t2) {
     const Lanes side2 = side * side, product = t1 * t2;
     const Lanes r1 = squareRoot(height2 + side2 + t1 * t1), r2 = squareRoot(height2 + side2 + t2 * t2);
     const Lanes turn = height * side * (t2 * r1 - t1 * r2);  // >= 0 but for round-off, as t/R grows with t
-    sum += angle - sign * upperAngle<Lanes>(turn > 0 ? turn : Lanes{}, side2 * r1 * r2 + height2 * product);
+    sum += sign * upperAngle<Lanes>(turn > 0 ? turn : Lanes{}, side2 * r1 * r2 + height2 * product);
   }
 };
 
 }  // namespace
+
+/// Angle the edges span at the disc's centre; without a rim they go all around it or not at all.
+double DiscClipper::spannedAngle() const {
+  const double whole = centreInside_ ? 2 * kPi : 0;
+  if (closed_) return whole;
+  Lanes angles = {};
+  for (std::size_t k = 0; k < lines_.count; k += kLanes) {
+    const Lanes t1 = loadLanes(&lines_.t1[k]), t2 = loadLanes(&lines_.t2[k]);
+    const Lanes offset = loadLanes(&lines_.offset[k]), side = offset < 0 ? -offset : offset;
+    const Lanes angle = upperAngle<Lanes>(side * (t2 - t1), side * side + t1 * t2);
+    angles += offset < 0 ? -angle : angle;
+  }
+  const double angle = sumOf(angles);
+  return whole - angle < kAngleRoundOff * static_cast<double>(lines_.count) ? whole : angle;
+}
 
 /// Sums area and solid angles over edges and rim. With the disc's centre c as corner, an edge at distance D
 /// from t1 to t2 adds a triangle and takes its angle from the rim; the rim adds sectors of the disc and of
@@ -178,47 +211,38 @@ struct SolidSum {
 void DiscClipper::integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                             FilmShape& out) const {
   const Lanes zero = {};
-  Lanes triangles = {}, angles = {}, shifts = {}, outside = {};
+  Lanes triangles = {}, shifts = {};
   SolidSum near(height), far(balls.farHeight);
   for (std::size_t k = 0; k < lines_.count; k += kLanes) {
-    const Lanes end1 = loadLanes(&lines_.t1[k]), end2 = loadLanes(&lines_.t2[k]);
-    const auto left = end2 > end1;
-    const Lanes t1 = left ? end1 : zero, t2 = left ? end2 : zero, offset = loadLanes(&lines_.offset[k]);
-    const Lanes sign = offset < 0 ? zero - 1 : zero + 1, length = t2 - t1;
-    const Lanes side = left ? sign * offset : zero;
-    const Lanes angle = sign * upperAngle<Lanes>(side * length, side * side + t1 * t2);
-    triangles += sign * side * length;
+    const Lanes t1 = loadLanes(&lines_.t1[k]), t2 = loadLanes(&lines_.t2[k]);
+    const Lanes offset = loadLanes(&lines_.offset[k]), length = t2 - t1;
+    const Lanes sign = offset < 0 ? zero - 1 : zero + 1, side = sign * offset;
+    triangles += offset * length;
     shifts += loadLanes(&lines_.shift[k]) * length;
-    angles += angle;
-    outside += offset < 0 ? zero + 1 : zero;
-    near.add(sign, side, t1, t2, angle);
-    far.add(sign, side, t1, t2, angle);
+    near.add(sign, side, t1, t2);
+    far.add(sign, side, t1, t2);
   }
-  out.arc = (sumOf(outside) > 0 ? 0 : 2 * kPi) - sumOf(angles);
-  if (out.arc < kAngleRoundOff * static_cast<double>(lines_.count)) out.arc = 0;
+  const double angle = spannedAngle();
+  out.arc = (centreInside_ ? 2 * kPi : 0) - angle;
   out.area = (sumOf(triangles) + discRadius2 * out.arc) / 2;
   out.areaShift = sumOf(shifts) + out.arc * (balls.radius * balls.radiusShift - height * heightShift);
-  out.solidNear = sumOf(near.sum) + (1 - near.height / balls.radius) * out.arc;
-  out.solidFar = sumOf(far.sum) + (1 - far.height / balls.farRadius) * out.arc;
+  out.solidNear = angle - sumOf(near.sum) + (1 - near.height / balls.radius) * out.arc;
+  out.solidFar = angle - sumOf(far.sum) + (1 - far.height / balls.farRadius) * out.arc;
 }
 
 Eigen::Vector3d DiscClipper::pointInside() const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  int edges = 0;
   for (std::size_t k = 0; k < lines_.count; ++k) {
-    if (!(lines_.t2[k] > lines_.t1[k])) continue;
     const Eigen::Vector2d normal(lines_.ux[k], lines_.uy[k]), along(-lines_.uy[k], lines_.ux[k]);
     sum += lines_.offset[k] * normal + (lines_.t1[k] + lines_.t2[k]) / 2 * along;
-    ++edges;
   }
-  const Eigen::Vector2d mean = sum / std::max(edges, 1);
+  const Eigen::Vector2d mean = sum / std::max(1.0, static_cast<double>(lines_.count));
   return frame_.origin + mean.x() * frame_.u + mean.y() * frame_.v;
 }
 
 double DiscClipper::farthestCorner2() const {
   double farthest2 = 0;
   for (std::size_t k = 0; k < lines_.count; ++k) {
-    if (!(lines_.t2[k] > lines_.t1[k])) continue;
     const double end = std::max(std::abs(lines_.t1[k]), std::abs(lines_.t2[k]));
     farthest2 = std::max(farthest2, lines_.offset[k] * lines_.offset[k] + end * end);
   }

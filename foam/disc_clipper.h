@@ -41,7 +41,8 @@ class DiscClipper {
   double farthestCorner2() const;
 
  private:
-  /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film.
+  /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film; once
+  /// clipped, only those that have one.
   struct Lines {
     std::size_t count = 0;
     std::vector<std::uint32_t> plane;  ///< each comes from
@@ -49,6 +50,7 @@ class DiscClipper {
     std::vector<double> offset;        ///< D, signed distance from the disc's centre [m]
     std::vector<double> slope2;        ///< squared sine of the angle between the planes [-]
     std::vector<double> shift;         ///< what undoing the jitter adds to D [m]
+    std::vector<double> half;          ///< where the line meets the rim, at -half and half along it [m]
     std::vector<double> t1, t2;        ///< ends of the edge along the line [m]; t2 > t1 if anything is left
 
     void resize(std::size_t lines);
@@ -63,12 +65,16 @@ class DiscClipper {
   bool pickLines(std::size_t planes, double discRadius2);
   void scaleLines(double discRadius2);
   bool clipLines(double discRadius2);
+  void keepEdges();
+  double spannedAngle() const;
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                  FilmShape& out) const;
 
   std::vector<double> px_, py_, toPlane_, alongNormal_, slope2_;  ///< of the planes, in the disc's frame
   Frame frame_;
   Lines lines_;
+  bool centreInside_ = true;  ///< no line cuts the disc's centre away
+  bool closed_ = false;       ///< nothing is left of the rim
 };
 
 }  // namespace spume::foam

@@ -12,6 +12,8 @@ enum class DragLaw { coefficient, contaminated, clean };
 enum class BuoyancyLaw { hydrostatic, pressureGradient };
 enum class AirDragLaw { coefficient, stokes };
 enum class AttractionLaw { none, coefficient, capillary };
+/// Conjugate gradients with the diagonal blocks or an incomplete Cholesky factor, or a direct factorisation.
+enum class LinearSolver { pcgJacobi, pcgIncompleteCholesky, cholmod };
 
 /// How bubbles take to a solid.
 struct SolidSurface {
@@ -67,6 +69,7 @@ struct FoamParams {
   double burstReferenceRadius = 1e-3;  ///< [m], 1e-6 to 1
   double burstShape = 2;  ///< Weibull shape: 2 Rayleigh (Eq. 11 as a hazard), 4/3 thin films; 0.5 to 10
 
+  LinearSolver solver = LinearSolver::pcgIncompleteCholesky;
   double solverTolerance = 1e-6;  ///< relative residual of the implicit step, 1e-12 to 1e-1
   int solverIterations = 500;     ///< 1 to 100000
   std::uint64_t seed = 1;

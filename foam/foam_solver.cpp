@@ -178,6 +178,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   s.endLivesAndReport(dt, report);
   clock.end("events");
   report.solverIterations = solve.iterations, report.solverResidual = solve.residual;
+  report.solverFellBack = solve.fellBack;
   s.summarise(report);
   std::swap(bubbles, s.next);
   return report;

@@ -36,6 +36,7 @@ struct FoamStepReport {
   std::size_t contacts = 0, overlaps = 0, hidden = 0, clamped = 0;
   int solverIterations = 0;
   double solverResidual = 0;
+  bool solverFellBack = false;                       ///< the iteration stalled, the direct solver finished it
   double maxSpeed = 0;                               ///< [m/s]
   double gas = 0;                                    ///< in bubbles at the end [m^3]
   double gasBurst = 0;                               ///< released in this step [m^3]

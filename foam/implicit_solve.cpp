@@ -1,65 +1,84 @@
 #include "foam/implicit_solve.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
 
-double dot(const Vectors3& a, const Vectors3& b) {
-  return reduceIndices(
-      a.size(), 0.0, [&](std::size_t i) { return a[i].dot(b[i]); }, std::plus<>());
-}
+/// Passes of refinement: the iteration works in part in single precision, the factors lose digits to
+/// conditioning. Each pass gains five digits or more, so that round-off is reached well before the last.
+constexpr int kRefinements = 5;
+/// The iteration aims a little below the goal, and no further below the residual than single precision
+/// carries.
+constexpr double kAim = 0.9, kSinglePrecision = 1e-7;
+/// A pass that does not bring the residual below this share of the last has met round-off.
+constexpr double kStalled = 0.5;
 
 }  // namespace
-
-void ImplicitSolve::prepare(const BlockSystem& a) {
-  const std::size_t n = a.size();
-  inverse_.resize(n), direction_.resize(n), image_.resize(n), preconditioned_.resize(n);
-  forEachIndex(n, [&](std::size_t i) { inverse_[i] = a.diagonal(i).inverse(); });
-}
 
 double ImplicitSolve::residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x) {
   residual_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
-  return std::sqrt(dot(residual_, residual_));
+  return std::sqrt(reduceIndices(
+      a.size(), 0.0, [&](std::size_t i) { return residual_[i].squaredNorm(); }, std::plus<>()));
 }
 
 SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
                                  Vectors3& x) {
-  const std::size_t n = a.size();
+  couplingsKnown_ = false;
+  return solveAgain(a, b, goal, maxIterations, x);
+}
+
+SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
+                                      Vectors3& x) {
   const double first = residual(a, b, x);
-  double norm = first;
   SolveReport report;
-  report.converged = norm <= goal;
+  report.converged = first <= goal;
   if (report.converged) return report;
-  prepare(a);
-  const auto precondition = [&](std::size_t i) { preconditioned_[i] = inverse_[i] * residual_[i]; };
-  forEachIndex(n, precondition);
-  direction_ = preconditioned_;
-  double slope = dot(residual_, preconditioned_);
-  while (norm > goal && report.iterations < maxIterations) {
-    forEachIndex(n, [&](std::size_t i) { image_[i] = a.row(i, direction_); });
-    const double step = slope / dot(direction_, image_);
-    forEachIndex(n, [&](std::size_t i) {
-      x[i] += step * direction_[i];
-      residual_[i] -= step * image_[i];
-      precondition(i);
-    });
-    const double next = dot(residual_, preconditioned_);
-    forEachIndex(n,
-                 [&](std::size_t i) { direction_[i] = preconditioned_[i] + next / slope * direction_[i]; });
-    slope = next;
-    norm = std::sqrt(dot(residual_, residual_));
-    ++report.iterations;
+  const bool iterative = solver_ != LinearSolver::cholmod;
+  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, x);
+  double norm = iterative ? residual(a, b, x) : first;
+  if (!(norm <= goal)) {
+    report.fellBack = solveDirectly(a, b, goal, x) && iterative;
+    norm = residual(a, b, x);
   }
   report.residual = norm / first;
   report.converged = norm <= goal;
-  residual(a, b, x);
   shiftRigidly(a, x);
   return report;
+}
+
+int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
+                           Vectors3& x) {
+  if (!couplingsKnown_) swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky);
+  couplingsKnown_ = true;
+  swept_.copyDiagonals(a);
+  cholesky_.factor(swept_);
+  int iterations = 0;
+  double norm = residual(a, b, x);
+  for (int pass = 0; pass < kRefinements && norm > goal && iterations < maxIterations; ++pass) {
+    const double aim = std::max(kAim * goal, kSinglePrecision * norm);
+    iterations += pcg_.improve(swept_, cholesky_, residual_, aim, maxIterations - iterations, x);
+    const double last = std::exchange(norm, residual(a, b, x));
+    if (norm > kStalled * last) break;
+  }
+  return iterations;
+}
+
+bool ImplicitSolve::solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x) {
+  if (!direct_.factor(a)) return false;
+  double norm = residual(a, b, x);
+  for (int pass = 0; pass < kRefinements && norm > goal; ++pass) {
+    direct_.improve(residual_, x);
+    const double last = std::exchange(norm, residual(a, b, x));
+    if (norm > kStalled * last) break;
+  }
+  return true;
 }
 
 void ImplicitSolve::shiftRigidly(const BlockSystem& a, Vectors3& x) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "foam/block_pcg.h"
 #include "foam/block_system.h"
+#include "foam/direct_solve.h"
+#include "foam/foam_params.h"
 
 namespace spume::foam {
 
@@ -9,26 +12,39 @@ struct SolveReport {
   int iterations = 0;
   double residual = 0;
   bool converged = false;
+  bool fellBack = false;  ///< the iteration stalled and the direct solver took over
 };
 
-/// Conjugate gradients with the inverted 3 x 3 diagonal blocks as preconditioner. Keeps its vectors between
-/// calls. The result does not depend on the number of threads.
+/// Solves the implicit step by conjugate gradients with a preconditioner of choice, or directly. Keeps its
+/// memory between calls. The result does not depend on the number of threads.
 class ImplicitSolve {
  public:
+  explicit ImplicitSolve(LinearSolver solver = LinearSolver::pcgIncompleteCholesky) : solver_(solver) {}
+
   /// |b - A x| [kg m/s].
   double residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
 
-  /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. Ends with a correction by a rigid
-  /// motion of everything, so that total momentum changes by the outer forces alone to round-off. A result
-  /// that did not converge is still the best one found.
+  /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. An iteration that does not get there
+  /// within `maxIterations` is finished by the direct solver, where its factor fits into memory. Ends with a
+  /// correction by a rigid motion of everything, so that total momentum changes by the outer forces alone to
+  /// round-off. A result that did not converge is still the best one found.
   SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
+  /// The same when only `a.own` has changed since the last call of either: what depends on couplings is kept.
+  SolveReport solveAgain(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
+                         Vectors3& x);
 
  private:
-  void prepare(const BlockSystem& a);
+  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
+  bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
   void shiftRigidly(const BlockSystem& a, Vectors3& x);
 
-  std::vector<Eigen::Matrix3d> inverse_;
-  Vectors3 residual_, direction_, image_, preconditioned_;
+  LinearSolver solver_;
+  bool couplingsKnown_ = false;  ///< swept_ holds those of the system
+  SweptSystem swept_;
+  IncompleteCholesky cholesky_;
+  BlockPcg pcg_;
+  DirectSolve direct_;
+  Vectors3 residual_;
 };
 
 }  // namespace spume::foam

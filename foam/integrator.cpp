@@ -10,6 +10,7 @@
 #include "foam/forces/inertia.h"
 #include "foam/forces/strong_spring.h"
 #include "foam/parallel.h"
+#include "foam/space_order.h"
 
 namespace spume::foam {
 namespace {
@@ -59,9 +60,10 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
 
 [[noreturn]] void failToConverge(const SolveReport& report, std::size_t bubbles, double dt) {
   std::ostringstream message;
-  message << "foam: the implicit step of " << bubbles << " bubbles did not converge: relative residual "
-          << report.residual << " after " << report.iterations << " iterations at dt = " << dt
-          << " s; use a shorter step or raise foam.solverIterations";
+  message
+      << "foam: the implicit step of " << bubbles << " bubbles did not converge: relative residual "
+      << report.residual << " after " << report.iterations << " iterations at dt = " << dt
+      << " s, and the direct solver could not take over; use a shorter step or raise foam.solverIterations";
   throw NumericalFailure(message.str());
 }
 
@@ -103,6 +105,7 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
   change_.assign(n, Eigen::Vector3d::Zero());
   system_.start = neighbours.start, system_.other = neighbours.other;
   system_.block.resize(neighbours.other.size());
+  sortInSpace(bubbles.position, system_.order);
   forEachIndex(n, [&](std::size_t i) { assembleRow(i, topology, neighbours, dt); });
   contacts_.begin(walls, motion_, mass_, dt, system_, impulse_);
   // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
@@ -118,8 +121,11 @@ SolveReport Integrator::solveWithContacts(double dt) {
   const double goal = std::max(params_.solverTolerance * first, smallestGoal());
   SolveReport report;
   for (int pass = 0; pass < kWallPasses; ++pass) {
-    const SolveReport done = solver_.solve(system_, impulse_, goal, params_.solverIterations, change_);
-    report = {report.iterations + done.iterations, done.residual, done.converged};
+    const SolveReport done =
+        pass == 0 ? solver_.solve(system_, impulse_, goal, params_.solverIterations, change_)
+                  : solver_.solveAgain(system_, impulse_, goal, params_.solverIterations, change_);
+    report = {report.iterations + done.iterations, done.residual, done.converged,
+              report.fellBack || done.fellBack};
     if (!done.converged || !contacts_.update(motion_, change_, dt, system_, impulse_)) break;
   }
   return report;

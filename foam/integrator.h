@@ -23,7 +23,7 @@ namespace spume::foam {
 /// contributes at its own velocity, so both are there.
 class Integrator {
  public:
-  explicit Integrator(const FoamParams& params) : params_(params), drag_(params) {}
+  explicit Integrator(const FoamParams& params) : params_(params), drag_(params), solver_(params.solver) {}
 
   /// Each bubble's own forces and inertia from the step's start; `attraction` [N] is added to them. Also sets
   /// the bubbles' wetness and whether they adhere to a solid.
@@ -41,6 +41,9 @@ class Integrator {
 
   const std::vector<double>& mass() const { return mass_; }  ///< inertia of each bubble [kg]
   const Vectors3& velocities() const { return velocity_; }
+  /// The system of the last couple(), with the wall contacts it ended with.
+  const BlockSystem& system() const { return system_; }
+  const Vectors3& impulses() const { return impulse_; }
   double kineticEnergy() const;  ///< with the new velocities [J]
 
  private:

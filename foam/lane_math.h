@@ -9,7 +9,9 @@
 namespace spume::foam {
 
 /// Doubles worked on at once: one register of the instruction set the library is built for.
-#if defined(__AVX__)
+#if defined(__AVX512F__)
+inline constexpr std::size_t kLanes = 8;
+#elif defined(__AVX__)
 inline constexpr std::size_t kLanes = 4;
 #else
 inline constexpr std::size_t kLanes = 2;

@@ -1,20 +1,22 @@
 #include "foam/neighbours.h"
 
+#include "foam/parallel.h"
+
 namespace spume::foam {
 
 void Neighbours::build(std::size_t bubbles, const std::vector<OverlapPair>& pairs) {
-  start.assign(bubbles + 2, 0);
-  for (const OverlapPair& p : pairs) ++start[p.i + 2], ++start[p.j + 2];
-  for (std::size_t i = 2; i < start.size(); ++i) start[i] += start[i - 1];
-  other.resize(2 * pairs.size()), pair.resize(2 * pairs.size());
-  // Pairs come sorted by (i, j): placing every (j, i) first leaves each row sorted by neighbour.
-  const auto place = [this](std::int32_t owner, std::int32_t neighbour, std::size_t index) {
-    const std::int32_t slot = start[owner + 1]++;
-    other[slot] = neighbour, pair[slot] = static_cast<std::int32_t>(index);
-  };
-  for (std::size_t k = 0; k < pairs.size(); ++k) place(pairs[k].j, pairs[k].i, k);
-  for (std::size_t k = 0; k < pairs.size(); ++k) place(pairs[k].i, pairs[k].j, k);
-  start.pop_back();
+  rows_.build(bubbles, [&](const auto& body) {
+    forEachIndex(pairs.size(), [&](std::size_t k) {
+      const auto [i, j] = std::pair(pairs[k].i, pairs[k].j);
+      const auto index = static_cast<std::int32_t>(k);
+      body(i, j, PairRows::pack(j, index), PairRows::pack(i, index));
+    });
+  });
+  start = rows_.start;
+  other.resize(rows_.entry.size()), pair.resize(rows_.entry.size());
+  forEachIndex(other.size(), [&](std::size_t slot) {
+    other[slot] = PairRows::keyOf(rows_.entry[slot]), pair[slot] = PairRows::valueOf(rows_.entry[slot]);
+  });
 }
 
 }  // namespace spume::foam

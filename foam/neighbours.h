@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "foam/foam_topology.h"
+#include "foam/pair_rows.h"
 
 namespace spume::foam {
 
@@ -16,6 +17,9 @@ struct Neighbours {
 
   /// O(n + pairs).
   void build(std::size_t bubbles, const std::vector<OverlapPair>& pairs);
+
+ private:
+  PairRows rows_;
 };
 
 }  // namespace spume::foam

@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "foam/pair_rows.h"
+
 namespace spume::foam {
 
 /// For every bubble the others near enough to overlap it now or soon: a Verlet list. Two bubbles are
 /// candidates when their distance is below (1 + kSkin)(r_i + r_j) at the time of building, so the list holds
-/// until a bubble has |dx| + |dr| > kSkin r. Building is O(n) in the number of bubbles: a hierarchical grid
-/// with one level per radius octave finds each pair from its smaller bubble (performance, "Foam geometry").
+/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. Building is O(n)
+/// in the number of bubbles: a hierarchical grid with one level per radius octave finds each pair from its
+/// smaller bubble (performance, "Foam geometry").
 ///
 /// Bubbles are numbered here by *rank*: sorted by radius octave, then Morton cell, so that neighbours are
 /// near in memory. Rows list candidates by input index, so that what is summed along a row does not depend on
@@ -30,7 +33,7 @@ class OverlapPairs {
   const std::vector<std::int32_t>& order() const { return order_; }
   const std::vector<std::int32_t>& rank() const { return rank_; }
   /// The candidates of rank s are slots rowStart()[s] .. rowStart()[s + 1] - 1.
-  const std::vector<std::int32_t>& rowStart() const { return rowStart_; }
+  const std::vector<std::int32_t>& rowStart() const { return rows_.start; }
   /// Rank of the candidate in each slot.
   const std::vector<std::int32_t>& candidate() const { return candidate_; }
   /// The slot that holds the same pair seen from the other bubble.
@@ -38,6 +41,7 @@ class OverlapPairs {
 
  private:
   struct Levels;
+  class CellSearch;
   struct Sorted {
     Eigen::Vector3d position;
     double radius;
@@ -52,7 +56,8 @@ class OverlapPairs {
   std::vector<Eigen::Vector3d> builtPosition_;  ///< by input index
   std::vector<double> builtRadius_;
   std::vector<Sorted> sorted_;  ///< the same by rank
-  std::vector<std::int32_t> order_, rank_, rowStart_, candidate_, mirror_;
+  std::vector<std::int32_t> order_, rank_, candidate_, mirror_;
+  PairRows rows_;
 };
 
 }  // namespace spume::foam

@@ -18,21 +18,39 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr std::int32_t kGrain = 256;  ///< bubbles per parallel task
+constexpr std::int32_t kBubbleGrain = 256;  ///< bubbles per parallel task
 
 template <typename Body>
 void forEachBubble(std::int32_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, count, kGrain), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, count, kBubbleGrain), [&](const auto& range) {
     for (std::int32_t s = range.begin(); s < range.end(); ++s) body(s);
   });
 }
 
 enum class Relation : std::uint8_t { apart, crossing, contained };
 
+/// Where the radical plane of a pair stands, seen from one of the two.
+struct PlanePlace {
+  double distance;     ///< between the centres [m]
+  double height;       ///< signed distance of the plane from the centre [m]
+  double heightShift;  ///< what undoing the jitter adds to it [m]
+};
+
+/// A film as one of its two cells needs it.
+struct FilmSide {
+  bool empty = true;
+  double area = 0, areaShift = 0, arc = 0, solid = 0;  ///< as in FilmShape
+
+  FilmSide() = default;
+  FilmSide(const FilmShape& film, double solidFromHere)
+      : empty(film.empty), area(film.area), areaShift(film.areaShift), arc(film.arc), solid(solidFromHere) {}
+  FilmShape shape() const { return {empty, area, areaShift, arc, solid, 0}; }
+};
+
 }  // namespace
 
-/// The passes of the local engine. Columns over bubbles are by rank, columns over pairs by the order of
-/// FoamTopology::overlaps, which is sorted.
+/// The passes of the local engine. Columns over bubbles are by rank, columns over pairs by the slots of
+/// OverlapPairs, so that every pass but the last walks through memory; that one numbers pairs by (i, j).
 struct PowerCells::Internals {
   struct Scratch {
     CuttingPlanes planes;
@@ -44,13 +62,12 @@ struct PowerCells::Internals {
   std::vector<Vector> centre;
   std::vector<TieBrokenBall> ball;
   std::vector<std::uint8_t> hidden;
-  std::vector<std::int32_t> crossings;   ///< number of balls whose sphere crosses the bubble's
-  std::vector<Relation> relation;        ///< by slot
-  std::vector<double> distance;          ///< by slot [m]
-  std::vector<std::int32_t> pairOfSlot;  ///< by slot, -1 if apart
-  std::vector<std::int32_t> firstPair;   ///< by input index: first overlap with this bubble as i
-  std::vector<FilmShape> disc;           ///< by pair; near side = owner
-  std::vector<std::int32_t> filmCount;   ///< by input index, then summed
+  std::vector<std::int32_t> crossings;  ///< number of balls whose sphere crosses the bubble's
+  std::vector<Relation> relation;       ///< by slot
+  std::vector<PlanePlace> plane;        ///< by slot; undefined for pairs apart
+  std::vector<FilmSide> film;           ///< by slot
+  std::vector<std::int32_t> firstPair;  ///< by input index: first overlap with this bubble as i
+  std::vector<std::int32_t> firstFilm;  ///< by input index: first film with this bubble as i
   tbb::enumerable_thread_specific<Scratch> scratch;
 
   std::int32_t size() const { return near.size(); }
@@ -62,23 +79,22 @@ struct PowerCells::Internals {
   bool owns(std::int32_t s, std::int32_t t) const {
     return crossings[s] != crossings[t] ? crossings[s] < crossings[t] : near.order()[s] < near.order()[t];
   }
-  double heightOf(std::int32_t s, std::int32_t t, double d) const {
-    return radicalHeight(ball[s], ball[t], d);
-  }
-  double heightShiftOf(std::int32_t s, std::int32_t t, double d) const {
-    return radicalHeightShift(ball[s], ball[t], d);
+  /// Whether the slot, of the row of input index i, is where an overlapping pair is listed.
+  bool isUpper(std::int32_t i, std::int32_t slot) const {
+    return relation[slot] != Relation::apart && near.order()[near.candidate()[slot]] > i;
   }
 
   void load(const std::vector<Vector>& position, const std::vector<double>& trueRadius,
             const std::vector<std::uint64_t>& id);
   void relate();
   void relateRow(std::int32_t s);
-  void listOverlaps(FoamTopology& out);
   void clipDiscs();
   void clipRow(std::int32_t s, Scratch& local);
-  void listFilms(FoamTopology& out);
+  void gatherPlanes(std::int32_t s, Scratch& local) const;
   void measureCells(FoamTopology& out) const;
   void measureCell(std::int32_t s, FoamTopology& out) const;
+  void listPairs(FoamTopology& out);
+  void listRow(std::int32_t i, FoamTopology& out) const;
 };
 
 void PowerCells::Internals::load(const std::vector<Vector>& position, const std::vector<double>& trueRadius,
@@ -93,11 +109,11 @@ void PowerCells::Internals::load(const std::vector<Vector>& position, const std:
   });
 }
 
-/// Finds which candidates overlap now, and which balls lie inside another (model, "Foam geometry"): those are
-/// hidden.
+/// Finds which candidates overlap now and where their planes are, and which balls lie inside another (model,
+/// "Foam geometry"): those are hidden.
 void PowerCells::Internals::relate() {
   const std::size_t slots = near.candidate().size();
-  relation.resize(slots), distance.resize(slots), pairOfSlot.resize(slots);
+  relation.resize(slots), plane.resize(slots), film.resize(slots);
   forEachBubble(size(), [&](std::int32_t s) { relateRow(s); });
 }
 
@@ -107,49 +123,26 @@ void PowerCells::Internals::relateRow(std::int32_t s) {
   for (std::int32_t slot = rowBegin(s); slot < rowEnd(s); ++slot) {
     const std::int32_t t = near.candidate()[slot];
     const double d = (centre[t] - centre[s]).norm(), gap = ball[t].radius - ball[s].radius;
-    distance[slot] = d;
     relation[slot] = d >= ball[s].radius + ball[t].radius ? Relation::apart
                      : d > std::abs(gap)                  ? Relation::crossing
                                                           : Relation::contained;
+    plane[slot] = {d, radicalHeight(ball[s], ball[t], d), radicalHeightShift(ball[s], ball[t], d)};
+    film[slot].empty = true;
     crossings[s] += relation[slot] == Relation::crossing;
     if (relation[slot] == Relation::contained)
       hidden[s] |= gap > 0 || (gap == 0 && near.order()[t] < near.order()[s]);
   }
 }
 
-/// Numbers the overlapping pairs by (i, j) and writes them out.
-void PowerCells::Internals::listOverlaps(FoamTopology& out) {
-  firstPair.assign(static_cast<std::size_t>(size()) + 1, 0);
-  const auto isUpper = [&](std::int32_t i, std::int32_t slot) {
-    return relation[slot] != Relation::apart && near.order()[near.candidate()[slot]] > i;
-  };
-  forEachBubble(size(), [&](std::int32_t i) {
-    const std::int32_t s = near.rank()[i];
-    for (std::int32_t slot = rowBegin(s); slot < rowEnd(s); ++slot) firstPair[i + 1] += isUpper(i, slot);
-  });
-  for (std::int32_t i = 0; i < size(); ++i) firstPair[i + 1] += firstPair[i];
-  out.overlaps.resize(firstPair.back());
-  disc.resize(firstPair.back());
-  forEachBubble(size(), [&](std::int32_t i) {
-    std::int32_t pair = firstPair[i];
-    for (std::int32_t slot = rowBegin(near.rank()[i]); slot < rowEnd(near.rank()[i]); ++slot) {
-      if (!isUpper(i, slot)) continue;
-      out.overlaps[pair] = {i, near.order()[near.candidate()[slot]], distance[slot], -1};
-      disc[pair].empty = true;
-      pairOfSlot[slot] = pairOfSlot[near.mirror()[slot]] = pair++;
-    }
-  });
-}
-
 void PowerCells::Internals::clipDiscs() {
-  tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, size(), kGrain), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, size(), kBubbleGrain), [&](const auto& range) {
     Scratch& local = scratch.local();
     for (std::int32_t s = range.begin(); s < range.end(); ++s)
       if (!hidden[s]) clipRow(s, local);
   });
 }
 
-/// Gathers the planes that cut ball s and clips the discs it owns.
+/// Clips the discs that ball s owns, each by all planes that cut the ball.
 void PowerCells::Internals::clipRow(std::int32_t s, Scratch& local) {
   local.slot.clear();
   bool ownsAny = false;
@@ -159,44 +152,25 @@ void PowerCells::Internals::clipRow(std::int32_t s, Scratch& local) {
       ownsAny |= owns(s, near.candidate()[slot]);
     }
   if (!ownsAny) return;
-  CuttingPlanes& planes = local.planes;
-  planes.resize(local.slot.size());
-  for (std::size_t k = 0; k < planes.count; ++k) {
-    const std::int32_t t = near.candidate()[local.slot[k]];
-    const double d = distance[local.slot[k]];
-    const Vector normal = (centre[t] - centre[s]) / d;
-    planes.nx[k] = normal.x(), planes.ny[k] = normal.y(), planes.nz[k] = normal.z();
-    planes.height[k] = heightOf(s, t, d);
-    planes.heightShift[k] = heightShiftOf(s, t, d);
-  }
-  for (std::size_t k = 0; k < planes.count; ++k) {
-    const std::int32_t slot = local.slot[k], t = near.candidate()[slot];
+  gatherPlanes(s, local);
+  for (std::size_t k = 0; k < local.planes.count; ++k) {
+    const std::int32_t slot = local.slot[k], t = near.candidate()[slot], there = near.mirror()[slot];
     if (!owns(s, t)) continue;
-    disc[pairOfSlot[slot]] = local.clipper.clip(
-        planes, k, {ball[s].radius, ball[s].radiusShift, ball[t].radius, heightOf(t, s, distance[slot])});
+    const FilmShape shape = local.clipper.clip(
+        local.planes, k, {ball[s].radius, ball[s].radiusShift, ball[t].radius, plane[there].height});
+    film[slot] = {shape, shape.solidNear}, film[there] = {shape, shape.solidFar};
   }
 }
 
-/// Numbers the discs that are left by (i, j) and writes them out.
-void PowerCells::Internals::listFilms(FoamTopology& out) {
-  filmCount.assign(static_cast<std::size_t>(size()) + 1, 0);
-  forEachBubble(size(), [&](std::int32_t i) {
-    for (std::int32_t pair = firstPair[i]; pair < firstPair[i + 1]; ++pair)
-      filmCount[i + 1] += !disc[pair].empty;
-  });
-  for (std::int32_t i = 0; i < size(); ++i) filmCount[i + 1] += filmCount[i];
-  out.films.resize(filmCount.back());
-  forEachBubble(size(), [&](std::int32_t i) {
-    std::int32_t film = filmCount[i];
-    for (std::int32_t pair = firstPair[i]; pair < firstPair[i + 1]; ++pair) {
-      OverlapPair& overlap = out.overlaps[pair];
-      if (disc[pair].empty) continue;
-      const std::int32_t s = near.rank()[i], t = near.rank()[overlap.j];
-      const double height = heightOf(s, t, overlap.distance) + heightShiftOf(s, t, overlap.distance);
-      out.films[film] = {i, overlap.j, overlap.distance, height, disc[pair].trueArea()};
-      overlap.film = film++;
-    }
-  });
+void PowerCells::Internals::gatherPlanes(std::int32_t s, Scratch& local) const {
+  CuttingPlanes& planes = local.planes;
+  planes.resize(local.slot.size());
+  for (std::size_t k = 0; k < planes.count; ++k) {
+    const std::int32_t slot = local.slot[k];
+    const Vector normal = (centre[near.candidate()[slot]] - centre[s]) / plane[slot].distance;
+    planes.nx[k] = normal.x(), planes.ny[k] = normal.y(), planes.nz[k] = normal.z();
+    planes.height[k] = plane[slot].height, planes.heightShift[k] = plane[slot].heightShift;
+  }
 }
 
 void PowerCells::Internals::measureCells(FoamTopology& out) const {
@@ -209,19 +183,46 @@ void PowerCells::Internals::measureCell(std::int32_t s, FoamTopology& out) const
   CellSums sums(ball[s]);
   for (std::int32_t slot = rowBegin(s); slot < rowEnd(s) && !hidden[s]; ++slot) {
     if (!cuts(slot)) continue;
-    const std::int32_t t = near.candidate()[slot];
-    const double height = heightOf(s, t, distance[slot]);
-    sums.addPlane(height);
-    const FilmShape& film = disc[pairOfSlot[slot]];
-    if (!film.empty)
-      sums.addFilm(film, height, heightShiftOf(s, t, distance[slot]),
-                   owns(s, t) ? film.solidNear : film.solidFar);
+    const PlanePlace& place = plane[slot];
+    sums.addPlane(place.height);
+    if (!film[slot].empty)
+      sums.addFilm(film[slot].shape(), place.height, place.heightShift, film[slot].solid);
   }
   const std::int32_t i = near.order()[s];
   out.hidden[i] = hidden[s] || sums.hidden();
   out.volume[i] = out.hidden[i] ? 0 : sums.volume();
   out.freeArea[i] = out.hidden[i] ? 0 : sums.freeArea();
   out.filmArea[i] = sums.filmArea();
+}
+
+/// Numbers overlapping pairs and films by (i, j) and writes them out.
+void PowerCells::Internals::listPairs(FoamTopology& out) {
+  firstPair.assign(static_cast<std::size_t>(size()) + 1, 0), firstFilm = firstPair;
+  forEachBubble(size(), [&](std::int32_t i) {
+    const std::int32_t s = near.rank()[i];
+    std::int32_t pairs = 0, films = 0;
+    for (std::int32_t slot = rowBegin(s); slot < rowEnd(s); ++slot)
+      if (isUpper(i, slot)) ++pairs, films += !film[slot].empty;
+    firstPair[i + 1] = pairs, firstFilm[i + 1] = films;
+  });
+  for (std::int32_t i = 0; i < size(); ++i)
+    firstPair[i + 1] += firstPair[i], firstFilm[i + 1] += firstFilm[i];
+  out.overlaps.resize(firstPair.back()), out.films.resize(firstFilm.back());
+  forEachBubble(size(), [&](std::int32_t i) { listRow(i, out); });
+}
+
+void PowerCells::Internals::listRow(std::int32_t i, FoamTopology& out) const {
+  std::int32_t nextPair = firstPair[i], nextFilm = firstFilm[i];
+  const std::int32_t s = near.rank()[i];
+  for (std::int32_t slot = rowBegin(s); slot < rowEnd(s); ++slot) {
+    if (!isUpper(i, slot)) continue;
+    const std::int32_t j = near.order()[near.candidate()[slot]];
+    const PlanePlace& place = plane[slot];
+    out.overlaps[nextPair++] = {i, j, place.distance, film[slot].empty ? -1 : nextFilm};
+    if (!film[slot].empty)
+      out.films[nextFilm++] = {i, j, place.distance, place.height + place.heightShift,
+                               film[slot].shape().trueArea()};
+  }
 }
 
 PowerCells::PowerCells() : internals_(std::make_unique<Internals>()) {}
@@ -234,10 +235,9 @@ void PowerCells::compute(const std::vector<Eigen::Vector3d>& position, const std
   checkBalls("PowerCells", position, radius, id);
   internals_->load(position, radius, id);
   internals_->relate();
-  internals_->listOverlaps(out);
   internals_->clipDiscs();
-  internals_->listFilms(out);
   internals_->measureCells(out);
+  internals_->listPairs(out);
 }
 
 }  // namespace spume::foam

@@ -85,6 +85,17 @@ TEST(OverlapPairs, IsKeptWhileBubblesStayWithinTheSkinAndStillComplete) {
   EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
 }
 
+TEST(OverlapPairs, ACommonDriftKeepsTheList) {
+  Balls balls = randomFoam(500, 0.6, 5, 0.9, 17);
+  OverlapPairs list;
+  list.update(balls.position, balls.radius);
+  for (auto& x : balls.position) x += Eigen::Vector3d(3, -40, 7);  // many radii
+  EXPECT_FALSE(list.update(balls.position, balls.radius));
+  EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+  balls.position[3].x() += 2 * OverlapPairs::kSkin * balls.radius[3];
+  EXPECT_TRUE(list.update(balls.position, balls.radius));
+}
+
 TEST(OverlapPairs, FollowsBirthsAndDeaths) {
   const Balls balls = randomFoam(50, 0.6, 5, 0.9, 13);
   OverlapPairs list;

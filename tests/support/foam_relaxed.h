@@ -1,6 +1,7 @@
 #pragma once
 
 #include "foam/overlap_pairs.h"
+#include "foam/parallel.h"
 #include "tests/support/foam_balls.h"
 
 namespace spume::foam::test {
@@ -15,14 +16,16 @@ inline double restLength(double ri, double rj, double wetness) {
 inline void pushApart(Balls& balls, double wetness, double side, OverlapPairs& near) {
   near.update(balls.position, balls.radius);
   std::vector<Eigen::Vector3d> moved = balls.position;
-  for (int s = 0; s < near.size(); ++s)
+  forEachIndex(balls.size(), [&](std::size_t s) {
+    const int i = near.order()[s];
     for (int slot = near.rowStart()[s]; slot < near.rowStart()[s + 1]; ++slot) {
-      const int i = near.order()[s], j = near.order()[near.candidate()[slot]];
+      const int j = near.order()[near.candidate()[slot]];
       const Eigen::Vector3d apart = balls.position[i] - balls.position[j];
       const double d = apart.norm(), l = restLength(balls.radius[i], balls.radius[j], wetness);
       // A third, not half: about three pushes act on a bubble at once and would overshoot.
       if (d < l && d > 0) moved[i] += (l - d) / (3 * d) * apart;
     }
+  });
   for (auto& x : moved) x = x.cwiseMax(0).cwiseMin(side);
   balls.position = std::move(moved);
 }

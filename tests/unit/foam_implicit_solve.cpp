@@ -1,5 +1,6 @@
 // The linear solve against a system whose solution is known.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "foam/counter_random.h"
 #include "foam/implicit_solve.h"
@@ -12,11 +13,11 @@ Eigen::Vector3d drawn(CounterRandom& random) {
   return {2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1};
 }
 
-/// A seeded system of n bodies in a chain with extra links, stiff against their masses.
-BlockSystem randomSystem(int n, double stiffness) {
+/// A seeded system of n bodies in a chain, each linked to the next `links`, stiff against their masses.
+BlockSystem randomSystem(int n, double stiffness, int links = 3) {
   std::vector<OverlapPair> pairs;
   for (int i = 0; i < n; ++i)
-    for (int j = i + 1; j < std::min(n, i + 4); ++j) pairs.push_back({i, j, 1.0, -1});
+    for (int j = i + 1; j < std::min(n, i + 1 + links); ++j) pairs.push_back({i, j, 1.0, -1});
   Neighbours neighbours;
   neighbours.build(static_cast<std::size_t>(n), pairs);
   BlockSystem a;
@@ -55,17 +56,68 @@ Vectors3 randomVectors(std::size_t n) {
   return b;
 }
 
-TEST(ImplicitSolve, FindsTheVectorADenseMatrixWasAppliedTo) {
+Vectors3 product(const BlockSystem& a, const Vectors3& x) {
+  Vectors3 b(a.size());
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] = a.row(i, x);
+  return b;
+}
+
+constexpr LinearSolver kSolvers[] = {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky,
+                                     LinearSolver::cholmod};
+
+TEST(ImplicitSolve, EverySolverFindsTheVectorADenseMatrixWasAppliedTo) {
   const BlockSystem a = randomSystem(60, 1e4);
   const Vectors3 exact = randomVectors(60);
   const Eigen::MatrixXd matrix = dense(a);
-  Vectors3 b(60, Eigen::Vector3d::Zero()), x(60, Eigen::Vector3d::Zero());
+  Vectors3 b(60, Eigen::Vector3d::Zero());
   for (Eigen::Index i = 0; i < 180; ++i)
     for (Eigen::Index j = 0; j < 180; ++j) b[i / 3][i % 3] += matrix(i, j) * exact[j / 3][j % 3];
+  for (const LinearSolver kind : kSolvers) {
+    Vectors3 x(60, Eigen::Vector3d::Zero());
+    ImplicitSolve solver(kind);
+    const SolveReport report = solver.solve(a, b, 1e-12 * solver.residual(a, b, x), 2000, x);
+    EXPECT_TRUE(report.converged && !report.fellBack);
+    // Error <= residual x conditioning: 1e-12 x (about 1e5 / 0.5).
+    for (std::size_t i = 0; i < 60; ++i) EXPECT_LE((x[i] - exact[i]).norm(), 1e-6);
+  }
+}
+
+/// Without triangles the incomplete factor is the complete one, in any order that runs along the chain.
+TEST(ImplicitSolve, IncompleteCholeskyIsExactOnAChain) {
+  constexpr double kSinglePrecision = 1e-6;  // of the couplings, with room for 1e3 links
+  BlockSystem a = randomSystem(1000, 1e4, 1);
+  const Vectors3 exact = randomVectors(a.size()), b = product(a, exact);
+  Vectors3 x(a.size(), Eigen::Vector3d::Zero());
+  ImplicitSolve solver(LinearSolver::pcgIncompleteCholesky);
+  const SolveReport report = solver.solve(a, b, kSinglePrecision * solver.residual(a, b, x), 100, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_LE(report.iterations, 2);
+}
+
+TEST(ImplicitSolve, OrderOfRowsDoesNotMatterToTheSolution) {
+  BlockSystem a = randomSystem(300, 1e4);
+  const Vectors3 exact = randomVectors(a.size()), b = product(a, exact);
+  for (std::int32_t i = 0; i < 300; ++i) a.order.push_back((7 * i + 11) % 300);  // 7 and 300 share no divisor
+  Vectors3 x(a.size(), Eigen::Vector3d::Zero());
   ImplicitSolve solver;
   EXPECT_TRUE(solver.solve(a, b, 1e-12 * solver.residual(a, b, x), 2000, x).converged);
-  // Error <= residual x conditioning: 1e-12 x (about 1e5 / 0.5).
-  for (std::size_t i = 0; i < 60; ++i) EXPECT_LE((x[i] - exact[i]).norm(), 1e-6);
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LE((x[i] - exact[i]).norm(), 1e-6);
+}
+
+TEST(ImplicitSolve, ThreadsDoNotChangeABit) {
+  const BlockSystem a = randomSystem(5000, 1e4);  // three blocks of rows
+  const Vectors3 b = randomVectors(a.size());
+  for (const LinearSolver kind : kSolvers) {
+    const auto withThreads = [&](std::size_t threads) {
+      tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      Vectors3 x(a.size(), Eigen::Vector3d::Zero());
+      ImplicitSolve solver(kind);
+      solver.solve(a, b, 1e-6 * solver.residual(a, b, x), 2000, x);
+      return x;
+    };
+    const Vectors3 alone = withThreads(1);
+    for (std::size_t threads : {2, 4}) EXPECT_EQ(alone, withThreads(threads));
+  }
 }
 
 TEST(ImplicitSolve, LeavesNoResidualAgainstARigidShift) {
@@ -79,10 +131,24 @@ TEST(ImplicitSolve, LeavesNoResidualAgainstARigidShift) {
   EXPECT_LE(left.norm(), 1e-12);  // round-off of sums of order 1e3
 }
 
-TEST(ImplicitSolve, SaysSoWhenItDoesNotConverge) {
+TEST(ImplicitSolve, TheDirectSolverFinishesWhatStalls) {
+  constexpr double kGoal = 1e-7;  // round-off of stiffness x solution, 1e6 x 1 x 1e-16, over 400 links
   const BlockSystem a = randomSystem(60, 1e6);
+  const Vectors3 b = randomVectors(60);
   Vectors3 x(60, Eigen::Vector3d::Zero());
-  EXPECT_FALSE(ImplicitSolve().solve(a, randomVectors(60), 1e-12, 3, x).converged);
+  ImplicitSolve solver(LinearSolver::pcgJacobi);
+  const SolveReport report = solver.solve(a, b, kGoal, 3, x);
+  EXPECT_TRUE(report.converged && report.fellBack);
+  EXPECT_LE(solver.residual(a, b, x), kGoal);
+}
+
+TEST(ImplicitSolve, SaysSoWhenItDoesNotConverge) {
+  BlockSystem a = randomSystem(60, 1e2);
+  for (auto& own : a.own) own.setZero();  // nothing holds it: singular, no solution for most impulses
+  for (const LinearSolver kind : kSolvers) {
+    Vectors3 x(60, Eigen::Vector3d::Zero());
+    EXPECT_FALSE(ImplicitSolve(kind).solve(a, randomVectors(60), 1e-12, 3, x).converged);
+  }
 }
 
 TEST(Neighbours, ListEveryPairFromBothSidesInOrder) {
