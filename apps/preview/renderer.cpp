@@ -13,6 +13,8 @@
 namespace spume::apps {
 namespace {
 
+constexpr int kMostDetail = 3;  // of the light map; more shows in no picture
+
 /// Linear radiance to display values 0..1: a film-like curve (dark toe, soft shoulder), then the sRGB curve.
 Vec3 toDisplay(const Vec3& light) {
   constexpr float kExposure = 0.72f;
@@ -100,12 +102,18 @@ Image Canvas::image() const {
 }  // namespace
 
 Image renderPreview(const PreviewScene& scene, const PreviewSettings& settings) {
-  SurfaceMesh solid;
-  if (scene.solid) solid = meshDistance(scene.grid, scene.solid, scene.lower, scene.upper);
-  const RayScene rays(scene, meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper), std::move(solid));
-  const Vec3 lower = scene.lower.cast<float>(), upper = scene.upper.cast<float>();
-  const Environment environment(lower, upper, CausticMap(rays, lower, upper));
-  const Tracer tracer(scene, settings.style, rays, environment);
+  const GlassBox box(scene);
+  const BubbleCells cells(scene);
+  std::vector<SurfaceMesh> solids;
+  for (const PreviewSolid& solid : scene.solids)
+    solids.push_back(meshDistance(scene.grid, solid.distance, scene.lower, scene.upper));
+  const RayScene rays(scene, cells, meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper),
+                      std::move(solids));
+  const Optics optics(scene, box, cells, rays, settings.style != PreviewStyle::beauty);
+  Environment environment(box, scene.look.backdrop);
+  environment.setLightMap(
+      LightMap(optics, box, Environment::keyDirection(), std::min(settings.samples, kMostDetail)));
+  const Tracer tracer(scene, settings.style, optics, environment);
   const Camera camera(scene, settings.width, settings.height);
   Canvas canvas(tracer, camera, settings);
   canvas.render();

@@ -44,11 +44,15 @@ struct Tank {
             .phi = phi,
             .lower = grid.origin,
             .upper = grid.upper(),
-            .solid = {},
+            .solids = {},
             .bubblePosition = position,
             .bubbleRadius = radius,
             .bubbleType = type,
-            .camera = {}};
+            .bubbleId = {},
+            .bubbleAge = {},
+            .bubbleShade = {},
+            .camera = {},
+            .look = {}};
   }
 };
 
