@@ -14,9 +14,13 @@ Vec3 shadeColour(float shade) {
   return kStops[stop] + (x - stop) * (kStops[stop + 1] - kStops[stop]);
 }
 
-Vec3 bubblePaint(const PreviewScene& scene, PreviewStyle style, int bubble) {
+Vec3 classColour(foam::BubbleClass type) {
   static const Vec3 kOfClass[] = {{0.05f, 0.22f, 0.70f}, {0.06f, 0.48f, 0.16f}, {0.85f, 0.25f, 0.04f}};
-  if (style == PreviewStyle::classes) return kOfClass[static_cast<int>(scene.bubbleType[bubble])];
+  return kOfClass[static_cast<int>(type)];
+}
+
+Vec3 bubblePaint(const PreviewScene& scene, PreviewStyle style, int bubble) {
+  if (style == PreviewStyle::classes) return classColour(scene.bubbleType[bubble]);
   return shadeColour(scene.bubbleShade.empty() ? 0 : static_cast<float>(scene.bubbleShade[bubble]));
 }
 

@@ -8,6 +8,8 @@ namespace spume::apps {
 /// or by its shade.
 Vec3 bubblePaint(const PreviewScene& scene, PreviewStyle style, int bubble);
 
+Vec3 classColour(foam::BubbleClass type);
+
 /// The colour map of the shades: dark blue at 0 over green to yellow at 1, even in lightness.
 Vec3 shadeColour(float shade);
 

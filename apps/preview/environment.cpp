@@ -7,10 +7,10 @@ namespace spume::apps {
 namespace {
 
 // Colours in linear RGB, chosen by eye so that edges of glass and bubbles stand out.
-const Vec3 kTableColour{0.60f, 0.60f, 0.61f};
-const Vec3 kHorizon{0.74f, 0.78f, 0.82f};
-const Vec3 kZenith{0.20f, 0.25f, 0.32f};
-const Vec3 kKeyLight{8.0f, 7.8f, 7.4f};
+const Vec3 kTableColour{0.335f, 0.335f, 0.34f};
+const Vec3 kHorizon{0.40f, 0.44f, 0.49f};
+const Vec3 kZenith{0.065f, 0.085f, 0.12f};
+const Vec3 kKeyLight{9.0f, 8.7f, 8.2f};
 const Vec3 kStripLight{4.2f, 4.5f, 4.8f};
 const Vec3 kBackLight{2.6f, 2.8f, 3.0f};
 constexpr float kDarkTable = 0.10f, kDarkSky = 0.05f;  // of the dark backdrop, times the light one
@@ -61,7 +61,7 @@ Vec3 Environment::keyDirection() { return kKey.direction; }
 
 /// The backdrop is brightest behind the scene, low; the room behind the camera is dim.
 Vec3 Environment::sky(const Vec3& d) const {
-  constexpr float kGlow = 0.35f, kRoom = 0.45f;
+  constexpr float kGlow = 0.75f, kRoom = 0.35f;
   Vec3 light = kHorizon + (kZenith - kHorizon) * smoothStep(-0.05f, 0.85f, d.y());
   const float behind = (d - Vec3(0.25f, 0.1f, -0.96f)).squaredNorm();
   light *= (1 + kGlow * std::exp(-behind / 0.3f)) * (1 - (1 - kRoom) * smoothStep(-0.3f, 0.5f, d.z()));

@@ -21,6 +21,7 @@ class GlassBox {
   Hit fromGlass(const Vec3& origin, const Vec3& direction) const;
   Hit fromInside(const Vec3& origin, const Vec3& direction) const;
 
+  bool isDrawn() const { return inner_ != outer_; }
   bool isPane(int face) const { return pane_[face]; }
   /// Height of the table under the box [m].
   float tableHeight() const { return outer_[0].y(); }

@@ -12,7 +12,8 @@ namespace {
 
 /// What is left of white light after the length of the box in glass: the green of a pane's edge.
 const Vec3 kThroughGlass{0.45f, 0.74f, 0.62f};
-constexpr float kBorderScatter = 0.30f;  // of the light that meets the middle of a Plateau border, by eye
+constexpr float kBorderScatter = 0.45f;  // of the light that meets the middle of a Plateau border, by eye
+constexpr float kHaze = 0.02f;  // of the light that meets a film, scattered by what it carries, by eye
 constexpr float kDiagramMirror = 0.10f;  // largest share a boundary of a diagram mirrors
 
 Vec3 against(const Vec3& normal, const Vec3& direction) {
@@ -136,6 +137,7 @@ void Optics::meetSkin(const LightPath& path, int bubble, Crossing& crossing) con
   crossing.bubble = bubble;
   crossing.behind.bubble = bubble;
   const Face skin = faceAt(path, bubble, BubbleCells::kSkin);
+  crossing.border = skin.share;
   if (!path.inWater) return crossFilm(path, skin, -1, crossing);
   crossing.normal = skin.normal;
   refractOrMirror(path, crossing);
@@ -159,6 +161,7 @@ Crossing Optics::nextInBubble(LightPath& path) const {
   if (inside) path.origin += stretch.out * path.direction;
   Crossing crossing{.kind = Boundary::clear, .bubble = bubble, .behind = path};
   const Face wall = faceAt(path, bubble, face);
+  crossing.border = wall.share;
   const int other = face == BubbleCells::kSkin ? -1 : cells_.neighbour(face);
   crossing.behind.bubble = other;
   if (other < 0) crossing.behind.inWater = liquidAt(path.origin);
@@ -189,7 +192,7 @@ void Optics::crossFilm(const LightPath& path, const Face& film, int other, Cross
   const Vec3 thin = filmReflectance(cosIn, filmThickness(crossing.bubble, other, path.origin));
   const Vec3 thick = Vec3::Constant(sheetReflectance(cosIn, kWaterIndex));
   crossing.mirrored = thin + film.share * (thick - thin);
-  crossing.scattered = kBorderScatter * film.share;
+  crossing.scattered = kHaze + (kBorderScatter - kHaze) * film.share;
   if (film.share <= 0) return;
   constexpr float kPrism = 0.5f;  // turn of the light over the lean of the surface, by eye
   crossing.behind.direction = (path.direction + kPrism * (film.normal - film.exact)).normalized();

@@ -25,6 +25,7 @@ struct Crossing {
   Vec3 normal = Vec3::UnitY();   ///< unit, against the path
   Vec3 passed = Vec3::Ones();    ///< share of the light left on the way here
   Vec3 mirrored = Vec3::Zero();  ///< share of that the boundary mirrors
+  float border = 0;              ///< 0 outside a Plateau border, 1 in its middle
   float scattered = 0;           ///< share a Plateau border spreads to all sides
   int bubble = -1;               ///< the bubble whose skin or film this is
   LightPath behind;              ///< the path past the boundary, where not all is mirrored

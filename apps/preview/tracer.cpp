@@ -15,6 +15,7 @@ constexpr float kDropped = 0.004f;     // light that no 8-bit picture shows
 constexpr int kMaxDepth = 64;          // boundaries after which a path ends in the mean light of foam
 constexpr float kSolidAlbedo = 0.75f;  // pale ceramic
 constexpr float kBorderDepth = 4e-3f;  // liquid that scattered light has crossed in the borders of a foam [m]
+constexpr float kContactLine = 0.8f;   // how much darker the line of a contact is in a diagram
 const Vec3 kFoamLight{0.62f, 0.64f, 0.66f};
 
 }  // namespace
@@ -71,7 +72,7 @@ void Tracer::advance(Branch branch, Work& work) const {
 /// A boundary light goes through: a part is mirrored, a part scattered, the rest goes on.
 void Tracer::meet(const Branch& branch, const Crossing& crossing, Work& work) const {
   if (crossing.bubble >= 0 && style_ != PreviewStyle::beauty) {
-    const Vec3 colour = bubblePaint(scene_, style_, crossing.bubble) * (1 - crossing.scattered);
+    const Vec3 colour = bubblePaint(scene_, style_, crossing.bubble) * (1 - kContactLine * crossing.border);
     work.light += branch.weight.cwiseProduct(colour).cwiseProduct(environment_.ambient(crossing.normal));
     return;
   }
