@@ -1,6 +1,7 @@
 #include "apps/preview/glass_box.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace spume::apps {
@@ -16,7 +17,7 @@ Slab clip(const std::array<Vec3, 2>& box, const Vec3& origin, const Vec3& direct
   Slab slab;
   for (int a = 0; a < 3; ++a) {
     const bool up = direction[a] >= 0;
-    const float inverse = 1 / direction[a];
+    const float inverse = 1 / (up ? std::abs(direction[a]) : direction[a]);  // -0 must give +infinity
     const float in = (box[up ? 0 : 1][a] - origin[a]) * inverse;
     const float out = (box[up ? 1 : 0][a] - origin[a]) * inverse;
     if (in > slab.in) slab.in = in, slab.faceIn = 2 * a + !up;
