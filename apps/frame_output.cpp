@@ -1,12 +1,25 @@
 #include "apps/frame_output.h"
 
+#include <string_view>
+
 #include "apps/preview/image.h"
 #include "apps/preview/renderer.h"
 #include "coupling/bubble_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_builder.h"
+#include "coupling/shapes.h"
 
 namespace spume::apps {
+
+namespace {
+
+Material materialOf(const coupling::Scene& scene, const coupling::SolidSpec& solid) {
+  using enum coupling::SolidLook;
+  if (scene.look.solids != automatic) return scene.look.solids == glass ? Material::glass : Material::matte;
+  return std::string_view(coupling::nameOf(solid.shape.kind)) == "vessel" ? Material::glass : Material::matte;
+}
+
+}  // namespace
 
 PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& liquid,
                        const foam::BubbleStore& bubbles) {
@@ -15,12 +28,20 @@ PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& l
                     .lower = liquid.grid.origin,
                     .upper = liquid.grid.upper(),
                     .closed = scene.domain.closed,
-                    .solid = {},
+                    .solids = {},
                     .bubblePosition = bubbles.position,
                     .bubbleRadius = bubbles.radius,
                     .bubbleType = bubbles.type,
-                    .camera = scene.camera};
-  if (!scene.solids.empty()) view.solid = coupling::solidDistance(scene);
+                    .bubbleId = bubbles.id,
+                    .bubbleAge = bubbles.age,
+                    .bubbleShade = {},
+                    .camera = scene.camera,
+                    .look = scene.look};
+  for (const coupling::SolidSpec& solid : scene.solids) {
+    coupling::Scene alone = scene;
+    alone.solids = {solid};
+    view.solids.push_back({coupling::solidDistance(alone), materialOf(scene, solid)});
+  }
   return view;
 }
 

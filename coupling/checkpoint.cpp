@@ -140,7 +140,8 @@ std::map<std::string, std::string> valuesOf(const std::string& text) {
 
 bool changesTheMotion(const std::string& key) {
   static const std::set<std::string> kFree{"scene.name", "scene.title", "time.frames"};
-  return key.rfind("output.", 0) != 0 && key.rfind("camera.", 0) != 0 && !kFree.count(key);
+  return key.rfind("output.", 0) != 0 && key.rfind("camera.", 0) != 0 && key.rfind("look.", 0) != 0 &&
+         !kFree.count(key);
 }
 
 }  // namespace

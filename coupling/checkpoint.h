@@ -22,8 +22,8 @@ struct LoadedCheckpoint {
 
 /// The newest checkpoint of `scene` that is whole; nothing if the folder holds none. Throws SceneError,
 /// naming every difference, if it belongs to another scene, seed or SIMD path, and FileError if all are
-/// damaged. Keys that do not change the motion may differ: [output], [camera], scene.name, scene.title,
-/// time.frames.
+/// damaged. Keys that do not change the motion may differ: [output], [camera], [look], scene.name,
+/// scene.title, time.frames.
 std::optional<LoadedCheckpoint> readNewestCheckpoint(const std::string& folder, const Scene& scene);
 
 /// One line per key whose value differs between two resolved scenes (texts of writeScene), those that do not

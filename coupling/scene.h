@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/look_spec.h"
 #include "fluid/fluid_params.h"
 #include "foam/bubble_store.h"
 #include "foam/foam_params.h"
@@ -120,6 +121,7 @@ struct Scene {
   CouplingSpec coupling;
   OutputSpec output;
   CameraSpec camera;
+  LookSpec look;
   std::vector<SolidSpec> solids;
   std::vector<InflowSpec> inflows;
   std::vector<LiquidBodySpec> liquidBodies;

@@ -204,6 +204,26 @@ KeyTable cameraTable() {
       .build();
 }
 
+KeyTable lookTable() {
+  const KeyRange film{1e-9, 1e-5, "m"};
+  return partTable("look", "Of the pictures: materials and light.", &Scene::look)
+      .key("liquid_colour", &LookSpec::liquidColour, {0.001, 1, "-"},
+           "red, green, blue left of white light after colour_depth; linear")
+      .key("colour_depth", &LookSpec::colourDepth, {1e-4, 100, "m"}, "path in the liquid for liquid_colour")
+      .choice("backdrop", &LookSpec::backdrop, {"light", "dark"}, "of the studio")
+      .choice("box", &LookSpec::box, {"glass", "none"}, "walls of the domain: drawn as panes, or not")
+      .key("glass_thickness", &LookSpec::glassThickness, {0, 1, "m"},
+           "of the panes; 0: a fortieth of the longest edge")
+      .choice("solids", &LookSpec::solids, {"automatic", "glass", "matte"},
+              "automatic: vessels are glass, others matte")
+      .key("film_thin", &LookSpec::filmThin, film, "thinnest film between or around bubbles")
+      .key("film_thick", &LookSpec::filmThick, film, "thickest film, of new bubbles")
+      .key("film_drainage", &LookSpec::filmDrainage, {1e-3, 1e6, "s"}, "time films take to thin")
+      .key("plateau_border", &LookSpec::plateauBorder, {0, 0.5, "-"},
+           "width of the rounding where films meet, over the bubble's radius")
+      .build();
+}
+
 /// The keys of `Object::shape`, each only where the kind of the shape uses it.
 template <typename Object>
 void addShapeKeys(KeyTableBuilder<Object>& table) {
@@ -283,9 +303,9 @@ KeyTable bubblesTable() {
 
 const std::vector<KeyTable>& sceneTables() {
   static const std::vector<KeyTable> kTables{
-      sceneTable(),      domainTable(),      timeTable(),   liquidTable(), foamTable(),
-      couplingTable(),   entrainmentTable(), outputTable(), cameraTable(), solidTable(),
-      liquidBodyTable(), inflowTable(),      bubblesTable()};
+      sceneTable(),    domainTable(),      timeTable(),   liquidTable(), foamTable(),
+      couplingTable(), entrainmentTable(), outputTable(), cameraTable(), lookTable(),
+      solidTable(),    liquidBodyTable(),  inflowTable(), bubblesTable()};
   return kTables;
 }
 

@@ -63,6 +63,9 @@ std::optional<Conflict> findConflict(const Scene& scene) {
   if (auto conflict = ordered(entrainment + "median_radius", births.medianRadius, entrainment + "max_radius",
                               births.maxRadius, "m"))
     return conflict;
+  if (auto conflict =
+          ordered("look.film_thin", scene.look.filmThin, "look.film_thick", scene.look.filmThick, "m"))
+    return conflict;
   return inflowConflict(scene);
 }
 

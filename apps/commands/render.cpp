@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "apps/duration.h"
 #include "apps/exit_code.h"
 #include "apps/frame_output.h"
+#include "apps/preview/bubble_shade.h"
 #include "apps/preview/image.h"
 #include "apps/preview/movie.h"
 #include "apps/preview/renderer.h"
@@ -70,6 +72,24 @@ foam::BubbleStore bubblesOf(const std::string& folder, const std::string& liquid
   return {};
 }
 
+constexpr std::array<const char*, 4> kStyleNames{"beauty", "classes", "contacts", "pressure"};  // as the enum
+
+PreviewStyle styleNamed(const std::string& name) {
+  return static_cast<PreviewStyle>(std::find(kStyleNames.begin(), kStyleNames.end(), name) -
+                                   kStyleNames.begin());
+}
+
+/// Draws one cached frame.
+void renderFrame(const coupling::Scene& scene, const std::string& folder, const std::string& liquidPath,
+                 const PreviewSettings& settings, const std::string& path) {
+  const coupling::LiquidFrame liquid = coupling::readLiquidFrame(liquidPath);
+  const foam::BubbleStore bubbles = bubblesOf(folder, liquidPath);
+  const std::vector<double> shade = bubbleShade(settings.style, scene.foam, bubbles);
+  PreviewScene view = previewOf(scene, liquid.liquid, bubbles);
+  view.bubbleShade = shade;
+  writePng(renderPreview(view, settings), path);
+}
+
 int render(const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const coupling::Scene scene = coupling::readScene(options.folder + "/scene.toml");
@@ -77,20 +97,15 @@ int render(const RenderOptions& options) {
   const auto [first, last] = framesOf(options.frames);
   const auto [width, height] = *numberPair(options.size, 'x');
   const PreviewSettings settings{
-      .width = width,
-      .height = height,
-      .samples = options.samples,
-      .style = options.style == "classes" ? PreviewStyle::classes : PreviewStyle::beauty};
+      .width = width, .height = height, .samples = options.samples, .style = styleNamed(options.style)};
   const std::string target = options.folder + "/render";
   int done = 0;
   for (std::size_t f = 0; f < cache.frames.size(); ++f) {
     if (cache.frames[f] < first || cache.frames[f] > last) continue;
-    const coupling::LiquidFrame liquid = coupling::readLiquidFrame(cache.paths[f]);
-    const foam::BubbleStore bubbles = bubblesOf(options.folder, cache.paths[f]);
     if (done++ == 0) coupling::createFolder(target);
     const std::string number = fs::path(cache.paths[f]).stem().extension().string();  // .0001
     const std::string path = target + "/" + options.style + number + ".png";
-    writePng(renderPreview(previewOf(scene, liquid.liquid, bubbles), settings), path);
+    renderFrame(scene, options.folder, cache.paths[f], settings, path);
     std::cout << path << std::endl;
   }
   if (done == 0)
@@ -118,15 +133,16 @@ void addRender(CLI::App& program, Action& action) {
   verb->add_option("--size", options->size, "pixels; default 960x720")
       ->check(CLI::Validator(sizeProblem, "WxH"));
   verb->add_option("--style", options->style,
-                   "beauty, or classes: blue in the liquid, green at the surface, orange in air")
-      ->check(CLI::IsMember({"beauty", "classes"}));
+                   "beauty; classes: blue in the liquid, green at the surface, orange in air; contacts: "
+                   "their number, 0 dark to 14 yellow; pressure: of the neighbours over capillary, 0 to 1")
+      ->check(CLI::IsMember(std::vector<std::string>(kStyleNames.begin(), kStyleNames.end())));
   verb->add_option("--samples", options->samples, "per pixel and axis, 1 to 8; default 2")
       ->check(CLI::Range(1, 8));
   verb->footer(
       "Examples:\n"
       "  spume render out/pouring\n"
       "  spume render out/pouring --frames 90 --size 1920x1440 --samples 3\n"
-      "  spume render out/pouring --style classes");
+      "  spume render out/pouring --style pressure");
   verb->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

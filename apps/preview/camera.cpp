@@ -5,26 +5,26 @@
 
 namespace spume::apps {
 
-Camera::Camera(const PreviewScene& scene, int width, int height)
-    : eye_(scene.camera.eye.cast<float>()),
-      target_(scene.camera.target.cast<float>()),
-      tangent_(static_cast<float>(std::tan(0.5 * scene.camera.fieldOfView * M_PI / 180))),
+Camera::Camera(const coupling::CameraSpec& spec, const Eigen::AlignedBox3f& shown, int width, int height)
+    : eye_(spec.eye.cast<float>()),
+      target_(spec.target.cast<float>()),
+      tangent_(static_cast<float>(std::tan(0.5 * spec.fieldOfView * M_PI / 180))),
       width_(static_cast<float>(width)),
       height_(static_cast<float>(height)) {
-  const bool automatic = scene.camera.eye == scene.camera.target;
+  const bool automatic = spec.eye == spec.target;
   const Vec3 fromFront = Vec3(-0.45f, 0.26f, 1.0f).normalized();
   forward_ = automatic ? Vec3(-fromFront) : (target_ - eye_).normalized();
   const Vec3 upright = std::abs(forward_.y()) > 0.999f ? Vec3::UnitZ() : Vec3::UnitY();
   right_ = forward_.cross(upright).normalized();
   up_ = right_.cross(forward_);
-  if (automatic) placeBefore(scene, width_ / height_);
+  if (automatic) placeBefore(shown, width_ / height_);
 }
 
 /// Moves back and sideways until every corner of the box is in the picture, centred and with a margin.
-void Camera::placeBefore(const PreviewScene& scene, float aspect) {
+void Camera::placeBefore(const Eigen::AlignedBox3f& shown, float aspect) {
   constexpr float kMargin = 0.92f;
   constexpr int kRounds = 8;  // each round shrinks the error of the centring about tenfold
-  const Vec3 lower = scene.lower.cast<float>(), upper = scene.upper.cast<float>();
+  const Vec3 lower = shown.min(), upper = shown.max();
   target_ = 0.5f * (lower + upper);
   float distance = 2 * (upper - lower).norm();
   for (int round = 0; round < kRounds; ++round) {

@@ -6,22 +6,61 @@
 #include <utility>
 
 namespace spume::apps {
+namespace {
+
+/// Geometry numbers: water, bubbles, then one per solid.
+constexpr unsigned kWaterGeometry = 0, kBubbleGeometry = 1, kFirstSolid = 2;
+
+void boundBubble(const RTCBoundsFunctionArguments* args) {
+  const auto& cells = *static_cast<const BubbleCells*>(args->geometryUserPtr);
+  const int bubble = static_cast<int>(args->primID);
+  const Vec3 low = cells.centre(bubble).array() - cells.radius(bubble);
+  const Vec3 high = cells.centre(bubble).array() + cells.radius(bubble);
+  *args->bounds_o = {low.x(), low.y(), low.z(), 0, high.x(), high.y(), high.z(), 0};
+}
+
+/// Accepts the point where a single ray enters a cell.
+void intersectBubble(const RTCIntersectFunctionNArguments* args) {
+  const auto& cells = *static_cast<const BubbleCells*>(args->geometryUserPtr);
+  auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  if (!args->valid[0]) return;
+  const Vec3 origin(ray.ray.org_x, ray.ray.org_y, ray.ray.org_z);
+  const Vec3 direction(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
+  BubbleCells::Stretch stretch;
+  if (!cells.cut(static_cast<int>(args->primID), origin, direction, stretch)) return;
+  if (stretch.in <= ray.ray.tnear || stretch.in >= ray.ray.tfar) return;
+  ray.ray.tfar = stretch.in;
+  ray.hit.geomID = args->geomID;
+  ray.hit.primID = args->primID;
+}
+
+}  // namespace
 
 struct RayScene::Internals {
   RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  SurfaceMesh water, solid;
+  RTCScene everything = nullptr, solidsOnly = nullptr;
+  SurfaceMesh water;
+  std::vector<SurfaceMesh> solids;
   float offset = 0;  ///< shortest distance a ray sees [m]
 
   ~Internals() {
-    if (scene) rtcReleaseScene(scene);
+    if (everything) rtcReleaseScene(everything);
+    if (solidsOnly) rtcReleaseScene(solidsOnly);
     if (device) rtcReleaseDevice(device);
   }
-  void addMesh(const SurfaceMesh& mesh, SurfaceKind kind);
-  void addBubbles(const PreviewScene& view);
+  RTCScene newScene() const;
+  void addMesh(const SurfaceMesh& mesh, unsigned number, bool solid) const;
+  void addBubbles(const BubbleCells& cells) const;
+  SurfaceHit trace(RTCScene scene, const Vec3& origin, const Vec3& direction, float limit) const;
 };
 
-void RayScene::Internals::addMesh(const SurfaceMesh& mesh, SurfaceKind kind) {
+RTCScene RayScene::Internals::newScene() const {
+  const RTCScene scene = rtcNewScene(device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
+void RayScene::Internals::addMesh(const SurfaceMesh& mesh, unsigned number, bool solid) const {
   if (mesh.position.empty()) return;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -33,68 +72,76 @@ void RayScene::Internals::addMesh(const SurfaceMesh& mesh, SurfaceKind kind) {
     index[v] = static_cast<unsigned>(v);
   }
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(kind));
+  rtcAttachGeometryByID(everything, geometry, number);
+  if (solid) rtcAttachGeometryByID(solidsOnly, geometry, number);
   rtcReleaseGeometry(geometry);
 }
 
-void RayScene::Internals::addBubbles(const PreviewScene& view) {
-  const std::size_t count = view.bubblePosition.size();
-  if (count == 0) return;
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  auto* ball = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                           RTC_FORMAT_FLOAT4, 4 * sizeof(float), count));
-  for (std::size_t b = 0; b < count; ++b) {
-    Eigen::Map<Vec3>(ball + 4 * b) = view.bubblePosition[b].cast<float>();
-    ball[4 * b + 3] = static_cast<float>(view.bubbleRadius[b]);
-  }
+void RayScene::Internals::addBubbles(const BubbleCells& cells) const {
+  if (cells.size() == 0) return;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells.size()));
+  rtcSetGeometryUserData(geometry, const_cast<BubbleCells*>(&cells));  // the callbacks only read
+  rtcSetGeometryBoundsFunction(geometry, boundBubble, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersectBubble);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(SurfaceKind::bubble));
+  rtcAttachGeometryByID(everything, geometry, kBubbleGeometry);
   rtcReleaseGeometry(geometry);
 }
 
-RayScene::RayScene(const PreviewScene& scene, SurfaceMesh water, SurfaceMesh solid)
+RayScene::RayScene(const PreviewScene& scene, const BubbleCells& cells, SurfaceMesh water,
+                   std::vector<SurfaceMesh> solids)
     : internals_(std::make_unique<Internals>()) {
   internals_->water = std::move(water);
-  internals_->solid = std::move(solid);
+  internals_->solids = std::move(solids);
   constexpr double kOffset =
       2e-6;  // above the rounding of float positions, far below a bubble; share of the box
   internals_->offset = static_cast<float>(kOffset * (scene.upper - scene.lower).maxCoeff());
   internals_->device = rtcNewDevice(nullptr);
   if (!internals_->device) throw std::runtime_error("the ray tracing library could not start");
-  internals_->scene = rtcNewScene(internals_->device);
-  rtcSetSceneFlags(internals_->scene, RTC_SCENE_FLAG_ROBUST);
-  internals_->addMesh(internals_->water, SurfaceKind::water);
-  internals_->addMesh(internals_->solid, SurfaceKind::solid);
-  internals_->addBubbles(scene);
-  rtcCommitScene(internals_->scene);
+  internals_->everything = internals_->newScene();
+  internals_->solidsOnly = internals_->newScene();
+  internals_->addMesh(internals_->water, kWaterGeometry, false);
+  internals_->addBubbles(cells);
+  for (std::size_t s = 0; s < internals_->solids.size(); ++s)
+    internals_->addMesh(internals_->solids[s], kFirstSolid + static_cast<unsigned>(s), true);
+  rtcCommitScene(internals_->everything);
+  rtcCommitScene(internals_->solidsOnly);
 }
 
 RayScene::~RayScene() = default;
 
 SurfaceHit RayScene::nearest(const Vec3& origin, const Vec3& direction, float limit) const {
+  return internals_->trace(internals_->everything, origin, direction, limit);
+}
+
+SurfaceHit RayScene::nearestSolid(const Vec3& origin, const Vec3& direction, float limit) const {
+  return internals_->trace(internals_->solidsOnly, origin, direction, limit);
+}
+
+SurfaceHit RayScene::Internals::trace(RTCScene scene, const Vec3& origin, const Vec3& direction,
+                                      float limit) const {
   RTCRayHit ray{};
   ray.ray.org_x = origin.x(), ray.ray.org_y = origin.y(), ray.ray.org_z = origin.z();
   ray.ray.dir_x = direction.x(), ray.ray.dir_y = direction.y(), ray.ray.dir_z = direction.z();
-  ray.ray.tnear = internals_->offset;
+  ray.ray.tnear = offset;
   ray.ray.tfar = limit;
   ray.ray.mask = ~0u;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  rtcIntersect1(internals_->scene, &context, &ray);
+  rtcIntersect1(scene, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
 
-  SurfaceHit hit;
-  hit.kind = static_cast<SurfaceKind>(ray.hit.geomID);
-  hit.distance = ray.ray.tfar;
+  if (ray.hit.geomID == kBubbleGeometry)
+    return {SurfaceKind::bubble, static_cast<int>(ray.hit.primID), ray.ray.tfar, Vec3::Zero(), true};
+  const bool isWater = ray.hit.geomID == kWaterGeometry;
+  SurfaceHit hit{isWater ? SurfaceKind::water : SurfaceKind::solid,
+                 isWater ? -1 : static_cast<int>(ray.hit.geomID - kFirstSolid), ray.ray.tfar, Vec3::Zero(),
+                 false};
   const Vec3 flat(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
   hit.entering = flat.dot(direction) < 0;
-  if (hit.kind == SurfaceKind::bubble) {
-    hit.bubble = ray.hit.primID;
-    hit.normal = flat.normalized();
-    return hit;
-  }
-  const SurfaceMesh& mesh = hit.kind == SurfaceKind::water ? internals_->water : internals_->solid;
+  const SurfaceMesh& mesh = isWater ? water : solids[hit.index];
   const std::size_t v = std::size_t{3} * ray.hit.primID;
   hit.normal = ((1 - ray.hit.u - ray.hit.v) * mesh.normal[v] + ray.hit.u * mesh.normal[v + 1] +
                 ray.hit.v * mesh.normal[v + 2])

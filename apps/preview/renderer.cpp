@@ -8,20 +8,15 @@
 #include <vector>
 
 #include "apps/preview/camera.h"
+#include "apps/preview/legend.h"
+#include "apps/preview/tone.h"
 #include "apps/preview/tracer.h"
 
 namespace spume::apps {
 namespace {
 
-/// Linear radiance to display values 0..1: a film-like curve (dark toe, soft shoulder), then the sRGB curve.
-Vec3 toDisplay(const Vec3& light) {
-  constexpr float kExposure = 0.72f;
-  return light.unaryExpr([](float radiance) {
-    const float x = std::max(radiance, 0.0f) * kExposure;
-    const float linear = std::min(x * (2.4f * x + 0.05f) / (x * (2.4f * x + 0.72f) + 0.13f), 1.0f);
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-  });
-}
+constexpr int kSolidCells = 64;  // along the box, times detail
+constexpr int kMostDetail = 3;   // of the light map; more shows in no picture
 
 /// The picture while it is computed: display values, so that strong highlights do not alias.
 class Canvas {
@@ -82,8 +77,13 @@ bool Canvas::isEdge(int x, int y) const {
 
 void Canvas::refineEdges() {
   std::vector<Vec3> refined = pixel_;
+  const int more = settings_.samples + 1;  // another lattice, so that the two together are finer than either
+  const float first = static_cast<float>(settings_.samples * settings_.samples),
+              second = static_cast<float>(more * more);
   forEachPixel([&](int x, int y) {
-    if (isEdge(x, y)) refined[std::size_t(y) * settings_.width + x] = sample(x, y, 2 * settings_.samples);
+    if (isEdge(x, y))
+      refined[std::size_t(y) * settings_.width + x] =
+          (first * at(x, y) + second * sample(x, y, more)) / (first + second);
   });
   pixel_.swap(refined);
 }
@@ -97,20 +97,39 @@ Image Canvas::image() const {
   return image;
 }
 
+/// What an automatic camera shows: the box of glass or, where there is none, the solids.
+Eigen::AlignedBox3f shownBox(const GlassBox& box, const std::vector<SurfaceMesh>& solids) {
+  Eigen::AlignedBox3f shown;
+  if (!box.isDrawn())
+    for (const SurfaceMesh& solid : solids)
+      for (const Vec3& corner : solid.position) shown.extend(corner);
+  if (shown.isEmpty()) shown = {box.outerLower(), box.outerUpper()};
+  return shown;
+}
+
 }  // namespace
 
 Image renderPreview(const PreviewScene& scene, const PreviewSettings& settings) {
-  SurfaceMesh solid;
-  if (scene.solid) solid = meshDistance(scene.grid, scene.solid, scene.lower, scene.upper);
-  const RayScene rays(scene, meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper), std::move(solid));
-  const Vec3 lower = scene.lower.cast<float>(), upper = scene.upper.cast<float>();
-  const Environment environment(lower, upper, CausticMap(rays, lower, upper));
-  const Tracer tracer(scene, settings.style, rays, environment);
-  const Camera camera(scene, settings.width, settings.height);
+  const GlassBox box(scene);
+  const BubbleCells cells(scene);
+  std::vector<SurfaceMesh> solids;
+  for (const PreviewSolid& solid : scene.solids)
+    solids.push_back(meshDistance(solid.distance, scene.lower, scene.upper,
+                                  kSolidCells * std::min(settings.samples, kMostDetail)));
+  const Camera camera(scene.camera, shownBox(box, solids), settings.width, settings.height);
+  const RayScene rays(scene, cells, meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper),
+                      std::move(solids));
+  const Optics optics(scene, box, cells, rays, settings.style != PreviewStyle::beauty);
+  Environment environment(box, scene.look.backdrop);
+  environment.setLightMap(
+      LightMap(optics, box, Environment::keyDirection(), std::min(settings.samples, kMostDetail)));
+  const Tracer tracer(scene, settings.style, optics, environment);
   Canvas canvas(tracer, camera, settings);
   canvas.render();
   canvas.refineEdges();
-  return canvas.image();
+  Image image = canvas.image();
+  drawLegend(settings.style, image);
+  return image;
 }
 
 }  // namespace spume::apps

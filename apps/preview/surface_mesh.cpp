@@ -122,6 +122,27 @@ SurfaceMesh meshSlab(const Lattice& lattice, int i) {
   return mesh;
 }
 
+/// One Newton step along the gradient, but not off a wall of the box.
+void moveOntoSurface(const std::function<double(const Eigen::Vector3d&)>& distance,
+                     const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double dx,
+                     Eigen::Vector3f& position, Eigen::Vector3f& normal) {
+  constexpr double kStep = 0.05;  // of the central differences, in cells: rounds sharp edges by about as much
+  const Eigen::Vector3d x = position.cast<double>();
+  Eigen::Vector3d gradient;
+  for (int a = 0; a < 3; ++a) {
+    const Eigen::Vector3d h = kStep * dx * Eigen::Vector3d::Unit(a);
+    gradient[a] = (distance(x + h) - distance(x - h)) / (2 * kStep * dx);
+  }
+  if (!(gradient.norm() > 0)) return;
+  gradient.normalize();
+  normal = gradient.cast<float>();
+  const Eigen::Vector3f low = lower.cast<float>(), high = upper.cast<float>();
+  const double far = std::clamp(distance(x), -dx, dx);
+  for (int a = 0; a < 3; ++a)
+    if (position[a] > low[a] && position[a] < high[a])
+      position[a] = std::clamp(static_cast<float>(x[a] - far * gradient[a]), low[a], high[a]);
+}
+
 }  // namespace
 
 SurfaceMesh meshLevelSet(const GridSpec& grid, const DenseField<float>& phi, const Eigen::Vector3d& lower,
@@ -137,13 +158,23 @@ SurfaceMesh meshLevelSet(const GridSpec& grid, const DenseField<float>& phi, con
   return mesh;
 }
 
-SurfaceMesh meshDistance(const GridSpec& grid, const std::function<double(const Eigen::Vector3d&)>& distance,
-                         const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+SurfaceMesh meshDistance(const std::function<double(const Eigen::Vector3d&)>& distance,
+                         const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, int cells) {
+  GridSpec grid;
+  grid.origin = lower;
+  grid.dx = (upper - lower).maxCoeff() / cells;
+  grid.cells = ((upper - lower) / grid.dx).array().ceil().cast<int>().max(2);
   DenseField<float> sampled(grid.cells);
-  fluid::forEachCell(grid.cells, [&](int i, int j, int k) {
-    sampled(i, j, k) = static_cast<float>(distance(grid.cellCentre(i, j, k)));
+  tbb::parallel_for(0, grid.cells.x(), [&](int i) {
+    for (int j = 0; j < grid.cells.y(); ++j)
+      for (int k = 0; k < grid.cells.z(); ++k)
+        sampled(i, j, k) = static_cast<float>(distance(grid.cellCentre(i, j, k)));
   });
-  return meshLevelSet(grid, sampled, lower, upper);
+  SurfaceMesh mesh = meshLevelSet(grid, sampled, lower, upper);
+  tbb::parallel_for(std::size_t{0}, mesh.position.size(), [&](std::size_t v) {
+    moveOntoSurface(distance, lower, upper, grid.dx, mesh.position[v], mesh.normal[v]);
+  });
+  return mesh;
 }
 
 }  // namespace spume::apps

@@ -23,9 +23,10 @@ struct SurfaceMesh {
 SurfaceMesh meshLevelSet(const fluid::GridSpec& grid, const fluid::DenseField<float>& phi,
                          const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
 
-/// The zero level of a distance function sampled at the cell centres of `grid`.
-SurfaceMesh meshDistance(const fluid::GridSpec& grid,
-                         const std::function<double(const Eigen::Vector3d&)>& distance,
-                         const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+/// The zero level of a distance function inside the box, found with about `cells` cells along the box's
+/// longest edge; corners and normals then taken from the function itself, so that round things come out
+/// smooth.
+SurfaceMesh meshDistance(const std::function<double(const Eigen::Vector3d&)>& distance,
+                         const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, int cells);
 
 }  // namespace spume::apps
