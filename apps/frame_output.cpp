@@ -20,7 +20,7 @@ PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& l
                     .bubbleRadius = bubbles.radius,
                     .bubbleType = bubbles.type,
                     .camera = scene.camera};
-  if (!scene.solids.empty()) view.solid = coupling::solidDistance(scene);
+  if (!scene.solids.empty()) view.solid = coupling::solidDistance(scene, liquid.time);
   return view;
 }
 
