@@ -90,8 +90,9 @@ DistanceField levelSetDistance(const ShapeSpec& shape, double dx) {
   if (grid->activeVoxelCount() == 0) throw SceneError(shape.file + ": its level set is empty");
   const Box box = worldBounds(*grid);
   DistanceField field = fieldAround({shape.scale * box.first, shape.scale * box.second}, dx);
+  const auto accessor = grid->getConstAccessor();
   const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor, openvdb::tools::BoxSampler> sampler(
-      grid->getConstAccessor(), grid->transform());
+      accessor, grid->transform());
   forEachPoint(field, [&](int i, int j, int k) {
     const Eigen::Vector3d x = field.position(i, j, k) / shape.scale;
     const float value = sampler.wsSample({x.x(), x.y(), x.z()});
