@@ -76,8 +76,9 @@ TEST(Probes, ReadAStillTankAlongEveryAxis) {
       EXPECT_NEAR(values[3], weight * 0.002, kFloats * weight * kDepth);
       EXPECT_EQ(values[4], 0);
       EXPECT_LE(std::hypot(values[5], values[6], values[7]), 1e-8);
-      const double half = axis == 0 ? (side < 0 ? kDepth : 0) : 0.5 * kDepth;
-      if (axis != 0) EXPECT_NEAR(values[8], half * kEdge * kEdge, kFloats * std::pow(kEdge, 3));
+      const double across = axis == 0 ? kDepth : 0.5 * kEdge;  // of the lower half of x: all of it or half
+      const double half = axis == 0 && side > 0 ? 0 : across * (axis == 0 ? kEdge : kDepth) * kEdge;
+      EXPECT_NEAR(values[8], half, kFloats * std::pow(kEdge, 3));
     }
 }
 
