@@ -1,7 +1,5 @@
 #include "apps/frame_output.h"
 
-#include <string_view>
-
 #include "apps/preview/image.h"
 #include "apps/preview/renderer.h"
 #include "coupling/bubble_cache.h"
@@ -16,7 +14,7 @@ namespace {
 Material materialOf(const coupling::Scene& scene, const coupling::SolidSpec& solid) {
   using enum coupling::SolidLook;
   if (scene.look.solids != automatic) return scene.look.solids == glass ? Material::glass : Material::matte;
-  return std::string_view(coupling::nameOf(solid.shape.kind)) == "vessel" ? Material::glass : Material::matte;
+  return solid.shape.kind == coupling::ShapeKind::vessel ? Material::glass : Material::matte;
 }
 
 }  // namespace
@@ -40,7 +38,7 @@ PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& l
   for (const coupling::SolidSpec& solid : scene.solids) {
     coupling::Scene alone = scene;
     alone.solids = {solid};
-    view.solids.push_back({coupling::solidDistance(alone), materialOf(scene, solid)});
+    view.solids.push_back({coupling::solidDistance(alone, liquid.time), materialOf(scene, solid)});
   }
   return view;
 }

@@ -11,6 +11,7 @@
 #include "apps/progress.h"
 #include "apps/stop_request.h"
 #include "coupling/checkpoint.h"
+#include "coupling/probes.h"
 #include "coupling/run_folder.h"
 #include "coupling/scene_builder.h"
 #include "coupling/scene_lint.h"
@@ -75,7 +76,8 @@ Session::Session(const SessionOptions& options) : options_(options), folder_(pre
     if (!finished()) log_->say("going on from " + loaded->path);
   }
   folder_.writeScene(options.scene);
-  statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame);
+  statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame,
+                                                             coupling::probeColumns(options.scene));
   summary_.threads = options.threads;
   summary_.switchedOff = coupling::switchedOff(options.scene);
 }

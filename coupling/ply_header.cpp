@@ -56,6 +56,7 @@ class HeaderReader {
     if (words[0] == "format" && words.size() == 3) return readFormat(words[1]);
     if (words[0] == "element" && words.size() == 3) return readElement(words[1], words[2]);
     if (words[0] == "property" && elements_ == 1) return readProperty(line, words);
+    if (words[0] == "property" && inFaces_) return readFaceProperty(line, words);
     if (words[0] != "property") lines_.fail(words[0], quoted(line) + " is no line of a PLY header");
   }
 
@@ -68,19 +69,49 @@ class HeaderReader {
   }
 
   void readElement(std::string_view name, std::string_view count) {
-    if (++elements_ > 1) return;
+    inFaces_ = ++elements_ == 2 && name == "face";
+    if (inFaces_) return readCount(count, "faces", header_.faces);
+    if (elements_ > 1) return;
     if (name != "vertex")
       lines_.fail(name, "the first element is " + std::string(name) + ", expected vertex");
-    const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), header_.vertices);
-    if (error != std::errc() || stop != count.data() + count.size())
-      lines_.fail(count, quoted(count) + " is no number of vertices");
+    readCount(count, "vertices", header_.vertices);
+  }
+
+  void readCount(std::string_view word, const std::string& what, std::size_t& count) const {
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (error != std::errc() || stop != word.data() + word.size())
+      lines_.fail(word, quoted(word) + " is no number of " + what);
+  }
+
+  const TypeName* typeCalled(std::string_view word) const {
+    const auto known = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const TypeName& type) {
+      return word == type.name || word == type.alias;
+    });
+    return known == std::end(kTypes) ? nullptr : known;
+  }
+
+  /// A list of indices, then scalars; faces of another kind are not read.
+  void readFaceProperty(std::string_view line, const Words& words) {
+    const bool isList = words.size() == 5 && words[1] == "list";
+    const TypeName* first = isList              ? typeCalled(words[2])
+                            : words.size() == 3 ? typeCalled(words[1])
+                                                : nullptr;
+    const TypeName* second = isList ? typeCalled(words[3]) : nullptr;
+    if (!first || (isList && !second)) lines_.fail(words[0], quoted(line) + " is no property of a face");
+    const bool isFirst = !hasFaceList_ && header_.faceTail == 0;
+    if (isList != isFirst) header_.faces = 0;
+    if (isList) {
+      header_.faceLength = first->type;
+      header_.faceIndex = second->type;
+      hasFaceList_ = true;
+    } else {
+      header_.faceTail += first->bytes;
+    }
   }
 
   void readProperty(std::string_view line, const Words& words) {
-    const auto known = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const TypeName& type) {
-      return words.size() == 3 && (words[1] == type.name || words[1] == type.alias);
-    });
-    if (known == std::end(kTypes))
+    const TypeName* known = words.size() == 3 ? typeCalled(words[1]) : nullptr;
+    if (!known)
       lines_.fail(words[0], quoted(line) + " is no scalar property; expected e.g. property float x");
     header_.properties.push_back({std::string(words[2]), known->type, header_.stride});
     header_.stride += known->bytes;
@@ -96,7 +127,7 @@ class HeaderReader {
   const std::string& path_;
   PlyHeader header_;
   int elements_ = 0;
-  bool hasFormat_ = false;
+  bool hasFormat_ = false, inFaces_ = false, hasFaceList_ = false;
 };
 
 template <typename Value>
@@ -117,6 +148,12 @@ int PlyHeader::find(std::string_view name) const {
 
 PlyHeader readPlyHeader(TextLines& lines, const std::string& path) {
   return HeaderReader(lines, path).read();
+}
+
+std::size_t plyBytes(PlyType type) {
+  const auto known = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                  [type](const TypeName& name) { return name.type == type; });
+  return known->bytes;
 }
 
 double plyValue(const char* bytes, PlyType type) {

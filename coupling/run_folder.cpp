@@ -10,7 +10,7 @@ namespace spume::coupling {
 namespace {
 
 constexpr const char* kFolders[] = {"liquid", "bubbles", "preview", "checkpoint"};
-constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv",
+constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv", "probes.csv",
                                   "run.json",  "log.txt",    "scene.toml"};
 
 std::string numbered(const std::string& stem, int frame, const char* suffix) {

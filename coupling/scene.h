@@ -21,20 +21,35 @@ struct Animated {
   Animated() = default;
   Animated(double constant) : keys{{0.0, constant}} {}  // NOLINT: a number is the constant animation
   double at(double t) const;
-  double largest() const;  ///< over all times
+  double rate(double t) const;  ///< per second, of the stretch that ends at t; 0 beyond the keys
+  double largest() const;       ///< over all times
   bool operator==(const Animated&) const = default;
 };
 
-enum class ShapeKind { box, sphere, cylinder, halfSpace };
+/// The same for a vector.
+struct AnimatedVector {
+  std::vector<std::pair<double, Eigen::Vector3d>> keys{{0.0, Eigen::Vector3d::Zero()}};
+  AnimatedVector() = default;
+  AnimatedVector(const Eigen::Vector3d& constant) : keys{{0.0, constant}} {}  // NOLINT: as Animated
+  Eigen::Vector3d at(double t) const;
+  Eigen::Vector3d rate(double t) const;
+};
 
-/// A primitive given by its signed distance. Unused fields are ignored.
+enum class ShapeKind { box, sphere, cylinder, halfSpace, vessel, mesh, levelSet };
+
+/// A solid or region given by its signed distance. Unused fields are ignored.
 struct ShapeSpec {
   ShapeKind kind = ShapeKind::box;
   Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};  ///< box corners [m]
-  Eigen::Vector3d centre{0, 0, 0};  ///< sphere, cylinder: centre [m]; halfSpace: a point of the plane
-  Eigen::Vector3d axis{0, 1, 0};    ///< cylinder axis; halfSpace normal, out of the shape
-  double radius = 0;                ///< [m]
-  double height = 0;                ///< cylinder length along its axis [m]
+  /// [m] sphere, cylinder: centre; halfSpace: a point of the plane; vessel: middle of its inner bottom
+  Eigen::Vector3d centre{0, 0, 0};
+  Eigen::Vector3d axis{0, 1, 0};  ///< cylinder axis; halfSpace normal, out of it; vessel: towards its mouth
+  double radius = 0;              ///< [m]
+  double height = 0;              ///< cylinder length along its axis [m]
+  double innerDiameter = 0.08, innerHeight = 0.1;         ///< of a vessel, a round mug or glass [m]
+  double wallThickness = 0.005, bottomThickness = 0.005;  ///< of it [m]
+  std::string file = {};  ///< mesh: closed OBJ or PLY; levelSet: VDB; < 0 inside
+  double scale = 1;       ///< [m] per unit of the file
 };
 
 struct DomainSpec {
@@ -52,14 +67,26 @@ struct TimeSpec {
   int maxSubSteps = 4;   ///< liquid sub-steps the shared step is sized for, 1 to 100
 };
 
-struct LiquidBodySpec {
-  std::string name;
-  ShapeSpec shape;
+/// A rigid motion from where the shape was placed: turned about the line through `pivot`, then shifted.
+struct MotionSpec {
+  AnimatedVector position;                ///< shift [m]
+  Animated rotation{0.0};                 ///< [degrees], right-handed about `rotationAxis`
+  Eigen::Vector3d rotationAxis{0, 0, 1};  ///< any length > 0
+  Eigen::Vector3d pivot{0, 0, 0};         ///< [m]
 };
 
 struct SolidSpec {
   std::string name;
   ShapeSpec shape;
+  MotionSpec motion = {};
+};
+
+/// Liquid that is there at the start: a shape, or the inside of a vessel up to a depth.
+struct LiquidBodySpec {
+  std::string name;
+  ShapeSpec shape;
+  std::string vessel = {};  ///< name of the solid it fills instead; empty: `shape`
+  double depth = 0;         ///< of the liquid above the middle of the vessel's bottom [m]
 };
 
 struct InflowSpec {
@@ -70,6 +97,28 @@ struct InflowSpec {
   Animated speed{0.5};           ///< along `direction` [m/s]
   double turbulence = 0;         ///< rms relative fluctuation of the speed, 0 to 0.5
   double start = 0, stop = 1e9;  ///< open between [s]
+};
+
+enum class DrainMode { free, rate };
+
+/// A region that takes liquid out, booked as drained.
+struct OutflowSpec {
+  std::string name;
+  ShapeSpec shape;
+  DrainMode mode = DrainMode::free;  ///< free: open to the air at p = 0; rate: a pump
+  Animated rate{1e-4};               ///< of a pump [m^3/s]
+  double start = 0, stop = 1e9;      ///< open between [s]
+};
+
+enum class ProbeKind { height, pressure, velocity, volume };
+
+/// A measurement, one row of probes.csv a step.
+struct ProbeSpec {
+  std::string name;
+  ProbeKind kind = ProbeKind::height;
+  Eigen::Vector3d position{0, 0,
+                           0};  ///< height: where the gauge's foot stands; pressure, velocity: the point
+  ShapeSpec shape;              ///< volume: the region
 };
 
 /// Where escaped markers become bubbles (model, Section 4: rules 2 to 5).
@@ -124,6 +173,8 @@ struct Scene {
   LookSpec look;
   std::vector<SolidSpec> solids;
   std::vector<InflowSpec> inflows;
+  std::vector<OutflowSpec> outflows;
+  std::vector<ProbeSpec> probes;
   std::vector<LiquidBodySpec> liquidBodies;
   std::vector<foam::NewBubble> bubbles;
 

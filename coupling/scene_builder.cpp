@@ -1,42 +1,21 @@
 #include "coupling/scene_builder.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
-#include <set>
+#include <vector>
 
 #include "coupling/shapes.h"
-#include "coupling/toml_slot.h"
+#include "coupling/solid_files.h"
+#include "coupling/solid_motion.h"
 
 namespace spume::coupling {
 namespace {
 
-constexpr int kFewestCells = 4;       // along an edge: the stencils of the solver overlap on fewer
-constexpr double kNozzleCells = 3;    // [dx] length of an inflow's region, so that no sub-step empties it
-constexpr double kRequiredCells = 2;  // [dx] of it that must lie inside the domain
-constexpr double kLeastOutletRadius = 0.75;  // [dx] a smaller disc may miss every cell centre
-constexpr int kRimPoints = 16;               // of an outlet, tested against solids
-
-std::string text(const Eigen::Vector3d& v) {
-  return "[" + exactText(v.x()) + ", " + exactText(v.y()) + ", " + exactText(v.z()) + "]";
-}
-
-/// "inflow 'jet'", or "inflow 0" for an object without a name.
-std::string label(const std::string& table, const std::string& name, std::size_t item) {
-  return name.empty() ? table + " " + std::to_string(item) : table + " '" + name + "'";
-}
-
-Eigen::Vector3d domainUpper(const Scene& scene) { return gridOf(scene).upper(); }
-
-std::string domainText(const Scene& scene) {
-  return "the domain from " + text(scene.domain.lower) + " to " + text(domainUpper(scene)) + " m";
-}
-
-bool insideDomain(const Scene& scene, const Eigen::Vector3d& x) {
-  return (x.array() >= scene.domain.lower.array()).all() && (x.array() <= domainUpper(scene).array()).all();
-}
+constexpr int kFewestCells = 4;     // along an edge: the stencils of the solver overlap on fewer
+constexpr double kNozzleCells = 3;  // [dx] length of an inflow's region, so that no sub-step empties it
 
 ShapeSpec nozzle(const InflowSpec& inflow, double dx) {
   ShapeSpec region;
@@ -46,18 +25,6 @@ ShapeSpec nozzle(const InflowSpec& inflow, double dx) {
   region.centre = inflow.centre - 0.5 * region.height * region.axis;
   region.radius = inflow.radius;
   return region;
-}
-
-/// The centre of the outlet and points round its rim.
-std::vector<Eigen::Vector3d> outletPoints(const InflowSpec& inflow) {
-  const Eigen::Vector3d axis = inflow.direction.normalized();
-  const Eigen::Vector3d across = axis.unitOrthogonal(), other = axis.cross(across);
-  std::vector<Eigen::Vector3d> points{inflow.centre};
-  for (int i = 0; i < kRimPoints; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kRimPoints;
-    points.push_back(inflow.centre + inflow.radius * (std::cos(angle) * across + std::sin(angle) * other));
-  }
-  return points;
 }
 
 fluid::Inflow buildInflow(const InflowSpec& spec, double dx) {
@@ -75,58 +42,61 @@ fluid::Inflow buildInflow(const InflowSpec& spec, double dx) {
   return inflow;
 }
 
-fluid::SolidObject buildSolid(const SolidSpec& spec) {
+fluid::Outflow buildOutflow(const OutflowSpec& spec) {
+  fluid::Outflow outflow;
+  outflow.name = spec.name;
+  outflow.sdf = [shape = spec.shape](const Eigen::Vector3d& x) { return signedDistance(shape, x); };
+  outflow.free = spec.mode == DrainMode::free;
+  outflow.rate = [spec](double t) {
+    const bool open = t >= spec.start && t < spec.stop;
+    return !open ? 0.0 : spec.mode == DrainMode::free ? 1.0 : spec.rate.at(t);
+  };
+  return outflow;
+}
+
+/// Signed distance to a shape where it was placed; one from a file is read and sampled.
+SignedDistance placedDistance(const ShapeSpec& shape, double dx) {
+  if (!isFromFile(shape.kind)) return [shape](const Eigen::Vector3d& x) { return signedDistance(shape, x); };
+  const auto field = std::make_shared<const DistanceField>(distanceFromFile(shape, dx));
+  return [field](const Eigen::Vector3d& x) { return (*field)(x); };
+}
+
+/// The same as its motion has it at time t.
+SignedDistance distanceAt(const SignedDistance& placed, const MotionSpec& motion, double t) {
+  return [placed, pose = poseAt(motion, t)](const Eigen::Vector3d& x) { return placed(pose.toPlaced(x)); };
+}
+
+fluid::SolidObject buildSolid(const SolidSpec& spec, double dx) {
+  const SignedDistance placed = placedDistance(spec.shape, dx);
   fluid::SolidObject solid;
   solid.name = spec.name;
-  solid.psi = [shape = spec.shape](const Eigen::Vector3d& x, double) { return signedDistance(shape, x); };
+  solid.moves = moves(spec.motion);
+  solid.psi = [placed, motion = spec.motion](const Eigen::Vector3d& x, double t) {
+    return placed(poseAt(motion, t).toPlaced(x));
+  };
+  solid.frozen = [placed, motion = spec.motion](double t) { return distanceAt(placed, motion, t); };
+  if (solid.moves)
+    solid.velocity = [motion = spec.motion](const Eigen::Vector3d& x, double t) {
+      return velocityAt(motion, x, t);
+    };
   return solid;
 }
 
-void checkName(const std::string& name, const std::string& object, std::set<std::string>& names) {
-  if (!name.empty() && !names.insert(name).second)
-    throw SceneError(object + ": another object has the same name; give each its own");
+/// Liquid in a vessel as it stands at the start: its surface is level, or across the vessel without gravity.
+SignedDistance liquidInVessel(const SolidSpec& vessel, double depth, const Eigen::Vector3d& gravity) {
+  const Pose pose = poseAt(vessel.motion, 0);
+  const Eigen::Vector3d axis = vessel.shape.axis.normalized();
+  const Eigen::Vector3d surface = pose.toWorld(vessel.shape.centre + depth * axis);
+  const Eigen::Vector3d up = gravity.norm() > 0 ? -gravity.normalized() : pose.rotation * axis;
+  return [shape = vessel.shape, pose, surface, up](const Eigen::Vector3d& x) {
+    return std::max(roomInVessel(shape, pose.toPlaced(x)), up.dot(x - surface));
+  };
 }
 
-void checkBody(const Scene& scene, const ShapeSpec& shape, const std::string& object) {
-  const std::string problem = defect(shape);
-  if (!problem.empty()) throw SceneError(object + " (" + nameOf(shape.kind) + "): " + problem);
-  const auto [lower, upper] = bounds(shape);
-  const bool apart = (lower.array() >= domainUpper(scene).array()).any() ||
-                     (upper.array() <= scene.domain.lower.array()).any();
-  if (apart) throw SceneError(object + ": lies outside " + domainText(scene) + "; move it or remove it");
-}
-
-void checkInflow(const Scene& scene, const InflowSpec& inflow, const std::string& object,
-                 const SignedDistance& psi) {
-  const double dx = scene.dx();
-  if (inflow.radius < kLeastOutletRadius * dx)
-    throw SceneError(object + ": radius " + exactText(inflow.radius) + " m is too small for cells of " +
-                     exactText(dx) + " m; at least " + exactText(kLeastOutletRadius * dx) +
-                     " m, or a finer domain.resolution");
-  for (const Eigen::Vector3d& point : outletPoints(inflow)) {
-    if (!insideDomain(scene, point))
-      throw SceneError(object + ": its outlet leaves " + domainText(scene) + " at " + text(point) +
-                       "; move the centre or shrink the radius");
-    if (psi(point) <= 0)
-      throw SceneError(object + ": its outlet is inside a solid at " + text(point) +
-                       "; move the inflow or the solid");
-  }
-  const Eigen::Vector3d back = inflow.centre - kRequiredCells * dx * inflow.direction.normalized();
-  if (!insideDomain(scene, back))
-    throw SceneError(
-        object + ": the nozzle needs " + exactText(kRequiredCells * dx) +
-        " m behind its outlet inside the domain; move the centre along its direction by at least that");
-}
-
-void checkBubble(const Scene& scene, const foam::NewBubble& bubble, const std::string& object,
-                 const SignedDistance& psi) {
-  if (!insideDomain(scene, bubble.position))
-    throw SceneError(object + ": position " + text(bubble.position) + " lies outside " + domainText(scene));
-  if (2 * bubble.radius > scene.domain.size.minCoeff())
-    throw SceneError(object + ": radius " + exactText(bubble.radius) +
-                     " m: the bubble is larger than the domain");
-  if (psi(bubble.position) <= 0)
-    throw SceneError(object + ": position " + text(bubble.position) + " is inside a solid");
+SignedDistance distanceTo(const Scene& scene, const LiquidBodySpec& body) {
+  if (const SolidSpec* vessel = vesselOf(scene, body))
+    return liquidInVessel(*vessel, body.depth, scene.liquid.gravity);
+  return [shape = body.shape](const Eigen::Vector3d& x) { return signedDistance(shape, x); };
 }
 
 }  // namespace
@@ -146,25 +116,48 @@ fluid::LiquidSetup buildLiquidSetup(const Scene& scene) {
   fluid::LiquidSetup setup;
   setup.grid = gridOf(scene);
   setup.walls.closed = scene.domain.closed;
-  for (const SolidSpec& solid : scene.solids) setup.solids.push_back(buildSolid(solid));
+  for (const SolidSpec& solid : scene.solids) setup.solids.push_back(buildSolid(solid, scene.dx()));
   for (const InflowSpec& inflow : scene.inflows) setup.inflows.push_back(buildInflow(inflow, scene.dx()));
+  for (const OutflowSpec& outflow : scene.outflows) setup.outflows.push_back(buildOutflow(outflow));
   return setup;
 }
 
+const SolidSpec* vesselOf(const Scene& scene, const LiquidBodySpec& body) {
+  const auto isMeant = [&](const SolidSpec& solid) {
+    return solid.name == body.vessel && solid.shape.kind == ShapeKind::vessel;
+  };
+  const auto found = std::find_if(scene.solids.begin(), scene.solids.end(), isMeant);
+  return body.vessel.empty() || found == scene.solids.end() ? nullptr : &*found;
+}
+
 SignedDistance initialPhi(const Scene& scene) {
-  const double farAway = scene.domain.size.norm();
-  return [bodies = scene.liquidBodies, farAway](const Eigen::Vector3d& x) {
+  std::vector<SignedDistance> bodies;
+  for (const LiquidBodySpec& body : scene.liquidBodies) bodies.push_back(distanceTo(scene, body));
+  return [bodies = std::move(bodies), farAway = scene.domain.size.norm()](const Eigen::Vector3d& x) {
     double phi = farAway;
-    for (const LiquidBodySpec& body : bodies) phi = std::min(phi, signedDistance(body.shape, x));
+    for (const SignedDistance& body : bodies) phi = std::min(phi, body(x));
     return phi;
   };
 }
 
-SignedDistance solidDistance(const Scene& scene) {
-  return [solids = scene.solids](const Eigen::Vector3d& x) {
+SignedDistance solidDistance(const Scene& scene, double t) {
+  std::vector<SignedDistance> solids;
+  for (const SolidSpec& solid : scene.solids)
+    solids.push_back(distanceAt(placedDistance(solid.shape, scene.dx()), solid.motion, t));
+  return [solids = std::move(solids)](const Eigen::Vector3d& x) {
     double psi = std::numeric_limits<double>::infinity();
-    for (const SolidSpec& solid : solids) psi = std::min(psi, signedDistance(solid.shape, x));
+    for (const SignedDistance& solid : solids) psi = std::min(psi, solid(x));
     return psi;
+  };
+}
+
+SolidVelocity solidVelocity(const Scene& scene, double t) {
+  const auto still = [](const SolidSpec& solid) { return !moves(solid.motion); };
+  if (std::all_of(scene.solids.begin(), scene.solids.end(), still)) return {};
+  std::vector<MotionSpec> motions;
+  for (const SolidSpec& solid : scene.solids) motions.push_back(solid.motion);
+  return [motions = std::move(motions), t](int object, const Eigen::Vector3d& x) {
+    return object < 0 ? Eigen::Vector3d(0, 0, 0) : velocityAt(motions[object], x, t);
   };
 }
 
@@ -172,28 +165,6 @@ foam::BubbleStore initialBubbles(const Scene& scene) {
   foam::BubbleStore bubbles;
   for (const foam::NewBubble& bubble : scene.bubbles) bubbles.add(bubble);
   return bubbles;
-}
-
-void checkObjects(const Scene& scene) {
-  std::set<std::string> names;
-  const SignedDistance psi = solidDistance(scene);
-  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-    const std::string object = label("solid", scene.solids[i].name, i);
-    checkName(scene.solids[i].name, object, names);
-    checkBody(scene, scene.solids[i].shape, object);
-  }
-  for (std::size_t i = 0; i < scene.liquidBodies.size(); ++i) {
-    const std::string object = label("liquid_body", scene.liquidBodies[i].name, i);
-    checkName(scene.liquidBodies[i].name, object, names);
-    checkBody(scene, scene.liquidBodies[i].shape, object);
-  }
-  for (std::size_t i = 0; i < scene.inflows.size(); ++i) {
-    const std::string object = label("inflow", scene.inflows[i].name, i);
-    checkName(scene.inflows[i].name, object, names);
-    checkInflow(scene, scene.inflows[i], object, psi);
-  }
-  for (std::size_t i = 0; i < scene.bubbles.size(); ++i)
-    checkBubble(scene, scene.bubbles[i], label("bubbles", "", i), psi);
 }
 
 }  // namespace spume::coupling

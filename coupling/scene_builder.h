@@ -5,6 +5,7 @@
 
 #include "coupling/errors.h"
 #include "coupling/scene.h"
+#include "coupling/vdb_liquid_sampler.h"
 #include "fluid/liquid_solver.h"
 #include "foam/bubble_store.h"
 
@@ -23,8 +24,15 @@ fluid::LiquidSetup buildLiquidSetup(const Scene& scene);
 /// Signed distance [m] to the union of the liquid bodies, < 0 inside; a positive constant if there are none.
 SignedDistance initialPhi(const Scene& scene);
 
-/// Signed distance [m] to the nearest solid object (domain walls not counted), > 0 in free space.
-SignedDistance solidDistance(const Scene& scene);
+/// The vessel a liquid body fills; null if it names none.
+const SolidSpec* vesselOf(const Scene& scene, const LiquidBodySpec& body);
+
+/// Signed distance [m] to the nearest solid object at time t [s] (domain walls not counted), > 0 in free
+/// space.
+SignedDistance solidDistance(const Scene& scene, double t = 0);
+
+/// Velocity of the solids at time t for the foam; empty if none moves.
+SolidVelocity solidVelocity(const Scene& scene, double t);
 
 /// The bubbles a scene starts with, numbered from 0 in the order of the scene.
 foam::BubbleStore initialBubbles(const Scene& scene);

@@ -1,15 +1,12 @@
 #include "coupling/scene_keys.h"
 
 #include "coupling/key_table_builder.h"
-#include "coupling/shapes.h"
+#include "coupling/shape_keys.h"
 #include "foam/presets.h"
 
 namespace spume::coupling {
 namespace {
 
-const KeyRange kPlace{-1e4, 1e4, "m"};
-const KeyRange kLength{1e-6, 1e4, "m"};
-const KeyRange kDirection{-1e6, 1e6, "-"};
 const KeyRange kVelocity{-100, 100, "m/s"};
 constexpr double kLargestSeed = 9e18;  // TOML integers end at 2^63
 
@@ -224,56 +221,35 @@ KeyTable lookTable() {
       .build();
 }
 
-/// The keys of `Object::shape`, each only where the kind of the shape uses it.
-template <typename Object>
-void addShapeKeys(KeyTableBuilder<Object>& table) {
-  const auto isOneOf = [](auto... kinds) {
-    return [=](const Object& object) { return ((object.shape.kind == kinds) || ...); };
-  };
-  using enum ShapeKind;
-  table.choice(
-      "shape", [](Object & o) -> auto& { return o.shape.kind; },
-      {nameOf(box), nameOf(sphere), nameOf(cylinder), nameOf(halfSpace)}, "kind of the shape");
-  table
-      .key(
-          "lower", [](Object & o) -> auto& { return o.shape.lower; }, kPlace, "low corner")
-      .onlyIf(isOneOf(box), "box");
-  table
-      .key(
-          "upper", [](Object & o) -> auto& { return o.shape.upper; }, kPlace, "high corner")
-      .onlyIf(isOneOf(box), "box");
-  table
-      .key(
-          "centre", [](Object & o) -> auto& { return o.shape.centre; }, kPlace,
-          "centre, or a point of the plane")
-      .onlyIf(isOneOf(sphere, cylinder, halfSpace), "sphere, cylinder, half_space");
-  table
-      .key(
-          "axis", [](Object & o) -> auto& { return o.shape.axis; }, kDirection,
-          "axis, or normal out of the shape")
-      .onlyIf(isOneOf(cylinder, halfSpace), "cylinder, half_space");
-  table
-      .key(
-          "radius", [](Object & o) -> auto& { return o.shape.radius; }, kLength, "radius")
-      .onlyIf(isOneOf(sphere, cylinder), "sphere, cylinder");
-  table
-      .key(
-          "height", [](Object & o) -> auto& { return o.shape.height; }, kLength, "length along the axis")
-      .onlyIf(isOneOf(cylinder), "cylinder");
-}
-
 KeyTable solidTable() {
-  auto table = listTable("solid", "A solid at rest.", &Scene::solids);
+  using enum ShapeKind;
+  auto table = listTable("solid", "A solid, at rest or moved by keys.", &Scene::solids);
   table.key("name", &SolidSpec::name, "for messages");
-  addShapeKeys(table);
+  ShapeKeys<SolidSpec> shape(table, {box, sphere, cylinder, halfSpace, vessel, mesh, levelSet});
+  shape.addPrimitives();
+  shape.addVessel();
+  shape.addFile();
+  const auto motion = [](auto member) {
+    return [member](SolidSpec & s) -> auto& { return s.motion.*member; };
+  };
+  table.key("position", motion(&MotionSpec::position), kPlace, "shift from where its shape places it");
+  table.key("rotation", motion(&MotionSpec::rotation), {-1e6, 1e6, "degrees"},
+            "turn about rotation_axis through pivot, before the shift; may be animated");
+  table.key("rotation_axis", motion(&MotionSpec::rotationAxis), kDirection, "right-handed; any length");
+  table.key("pivot", motion(&MotionSpec::pivot), kPlace, "a point of the axis it turns about");
   return table.build();
 }
 
 KeyTable liquidBodyTable() {
+  using enum ShapeKind;
   auto table = listTable("liquid_body", "Liquid that is there at the start; bodies may overlap.",
                          &Scene::liquidBodies);
   table.key("name", &LiquidBodySpec::name, "for messages");
-  addShapeKeys(table);
+  table.key("vessel", &LiquidBodySpec::vessel, "name of the vessel it fills, instead of a shape");
+  table.key("depth", &LiquidBodySpec::depth, {0, 1e4, "m"}, "of the liquid in the vessel")
+      .onlyIf([](const LiquidBodySpec& body) { return !body.vessel.empty(); }, "bodies in a vessel");
+  ShapeKeys<LiquidBodySpec> shape(table, {box, sphere, cylinder, halfSpace});
+  shape.addPrimitives();
   return table.build();
 }
 
@@ -290,6 +266,35 @@ KeyTable inflowTable() {
       .build();
 }
 
+KeyTable outflowTable() {
+  using enum ShapeKind;
+  auto table = listTable("outflow", "A region that takes liquid out.", &Scene::outflows);
+  table.key("name", &OutflowSpec::name, "for messages");
+  table.choice("mode", &OutflowSpec::mode, {"free", "rate"},
+               "free: open to the air, all that comes in is gone; rate: a pump");
+  table.key("rate", &OutflowSpec::rate, {0, 1e3, "m^3/s"}, "of a pump; may be animated")
+      .onlyIf([](const OutflowSpec& outflow) { return outflow.mode == DrainMode::rate; }, "mode rate");
+  table.key("start", &OutflowSpec::start, {0, 1e9, "s"}, "opens");
+  table.key("stop", &OutflowSpec::stop, {0, 1e9, "s"}, "closes");
+  ShapeKeys<OutflowSpec> shape(table, {box, sphere, cylinder, halfSpace});
+  shape.addPrimitives();
+  return table.build();
+}
+
+KeyTable probeTable() {
+  using enum ShapeKind;
+  auto table = listTable("probe", "A measurement: columns of probes.csv, a row a step.", &Scene::probes);
+  table.key("name", &ProbeSpec::name, "names its columns; letters, digits, _ and -");
+  table.choice("kind", &ProbeSpec::kind, {"height", "pressure", "velocity", "volume"},
+               "a height gauge, a point, or the liquid in a region");
+  table.key("position", &ProbeSpec::position, kPlace, "the point, or the foot of the gauge")
+      .onlyIf([](const ProbeSpec& probe) { return probe.kind != ProbeKind::volume; },
+              "height, pressure, velocity");
+  ShapeKeys<ProbeSpec> shape(table, {box, sphere, cylinder, halfSpace});
+  shape.addPrimitives();
+  return table.build();
+}
+
 KeyTable bubblesTable() {
   return listTable("bubbles", "A bubble that is there at the start.", &Scene::bubbles)
       .key("position", &foam::NewBubble::position, kPlace, "centre")
@@ -303,9 +308,9 @@ KeyTable bubblesTable() {
 
 const std::vector<KeyTable>& sceneTables() {
   static const std::vector<KeyTable> kTables{
-      sceneTable(),    domainTable(),      timeTable(),   liquidTable(), foamTable(),
-      couplingTable(), entrainmentTable(), outputTable(), cameraTable(), lookTable(),
-      solidTable(),    liquidBodyTable(),  inflowTable(), bubblesTable()};
+      sceneTable(),       domainTable(),  timeTable(),   liquidTable(), foamTable(),  couplingTable(),
+      entrainmentTable(), outputTable(),  cameraTable(), lookTable(),   solidTable(), liquidBodyTable(),
+      inflowTable(),      outflowTable(), probeTable(),  bubblesTable()};
   return kTables;
 }
 

@@ -21,7 +21,7 @@ struct ChoiceSlot {
 
 /// Where the value of a key lives, by its type.
 using Slot = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, Eigen::Vector2i*,
-                          Eigen::Vector3d*, Animated*, std::array<bool, 6>*, ChoiceSlot>;
+                          Eigen::Vector3d*, Animated*, AnimatedVector*, std::array<bool, 6>*, ChoiceSlot>;
 
 /// The closed range of a number, or of every component of a vector, with its unit.
 struct KeyRange {

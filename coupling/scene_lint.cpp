@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <sstream>
 
+#include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
 #include "coupling/scene_volumes.h"
 #include "coupling/shapes.h"
@@ -13,16 +15,13 @@ namespace spume::coupling {
 namespace {
 
 constexpr double kWallCells = 1;            // thinnest solid that cannot leak [dx]
+constexpr double kOverlapCells = 0.25;      // depth from which two solids in the same place overlap [dx]
+constexpr double kRoundOff = 1e-9;          // of a wall as thick as a cell
 constexpr double kNozzleCells = 2;          // least radius of a round jet [dx]
 constexpr double kLargeBubbleCells = 1;     // radius above which a bubble spans several cells [dx]
 constexpr double kBubblesPerBlock = 0.125;  // gas of a typical bubble over the volume of a reservoir block
 constexpr double kGentleImpact = 0.2;       // below this even landing drops and soft jets entrain [m/s]
 constexpr double kDryShare = 1e-4;          // smallest share of air in the domain that is worth running
-
-/// "solid 'slab'", or "solid 0" for an object without a name.
-std::string labelOf(const std::string& table, const std::string& name, std::size_t item) {
-  return name.empty() ? table + " " + std::to_string(item) : table + " '" + name + "'";
-}
 
 class Linter {
  public:
@@ -31,6 +30,7 @@ class Linter {
   std::vector<Finding> lint() {
     lintSolids();
     lintInflows();
+    lintProbes();
     lintBubbles();
     lintSteps();
     lintLiquid();
@@ -49,19 +49,59 @@ class Linter {
   }
 
   void lintSolids() {
+    if (scene_.solids.empty()) return;
+    const fluid::LiquidSetup setup = buildLiquidSetup(scene_);
+    std::vector<SolidSample> samples = sampleSolids(setup);
     for (std::size_t i = 0; i < scene_.solids.size(); ++i) {
-      const double wall = thickness(scene_.solids[i].shape);
-      if (wall < kWallCells * dx_)
-        add(Severity::warning, labelOf("solid", scene_.solids[i].name, i), "is ", wall,
-            " m thin, under one cell of ", dx_, " m: liquid may leak through; use a resolution of at least ",
-            std::ceil(scene_.domain.size.maxCoeff() / wall));
+      const bool fromFile = isFromFile(scene_.solids[i].shape.kind);
+      lintWall(i, fromFile ? 2 * samples[i].depth : thickness(scene_.solids[i].shape));
+      for (const std::size_t other : samples[i].overlaps)
+        add(Severity::warning, solidLabel(i), "overlaps ", solidLabel(other),
+            ": they act as one solid with the velocity of the nearer; move them apart if that is not meant");
+    }
+  }
+
+  std::string solidLabel(std::size_t i) const { return objectLabel("solid", scene_.solids[i].name, i); }
+
+  void lintWall(std::size_t i, double wall) {
+    if (wall < kWallCells * (1 - kRoundOff) * dx_)
+      add(Severity::warning, solidLabel(i), "is ", wall, " m thin, under one cell of ", dx_,
+          " m: liquid may leak through; use a resolution of at least ",
+          std::ceil(scene_.domain.size.maxCoeff() / wall));
+  }
+
+  /// What a lattice of points, two a cell, says about a solid at the start.
+  struct SolidSample {
+    double depth = 0;  ///< the deepest of them lies [m]
+    std::set<std::size_t> overlaps;
+  };
+  std::vector<SolidSample> sampleSolids(const fluid::LiquidSetup& setup) const {
+    std::vector<SolidSample> samples(setup.solids.size());
+    std::vector<SignedDistance> psi;
+    for (const fluid::SolidObject& solid : setup.solids) psi.push_back(solid.frozen(0));
+    const Eigen::Vector3i points = 2 * setup.grid.cells;
+    for (int i = 0; i <= points.x(); ++i)
+      for (int j = 0; j <= points.y(); ++j)
+        for (int k = 0; k <= points.z(); ++k)
+          noteDepths(psi, setup.grid.toWorld(0.5 * Eigen::Vector3d(i, j, k)), samples);
+    return samples;
+  }
+  void noteDepths(const std::vector<SignedDistance>& psi, const Eigen::Vector3d& x,
+                  std::vector<SolidSample>& samples) const {
+    std::size_t first = psi.size();
+    for (std::size_t n = 0; n < psi.size(); ++n) {
+      const double depth = -psi[n](x);
+      samples[n].depth = std::max(samples[n].depth, depth);
+      if (depth < kOverlapCells * dx_) continue;
+      if (first < n) samples[first].overlaps.insert(n);
+      first = std::min(first, n);
     }
   }
 
   void lintInflows() {
     for (std::size_t i = 0; i < scene_.inflows.size(); ++i) {
       const InflowSpec& inflow = scene_.inflows[i];
-      const std::string object = labelOf("inflow", inflow.name, i);
+      const std::string object = objectLabel("inflow", inflow.name, i);
       if (inflow.radius < kNozzleCells * dx_)
         add(Severity::warning, object, "has a radius of ", inflow.radius / dx_,
             " cells: the jet will be square; 2 or more are round");
@@ -74,6 +114,15 @@ class Linter {
       if (inflow.start >= scene_.time.frames / scene_.time.fps)
         add(Severity::note, object, "opens at ", inflow.start, " s, after the last frame");
     }
+  }
+
+  void lintProbes() {
+    if (scene_.probes.empty() || scene_.solids.empty()) return;
+    const SignedDistance psi = solidDistance(scene_);
+    for (std::size_t i = 0; i < scene_.probes.size(); ++i)
+      if (scene_.probes[i].kind != ProbeKind::volume && psi(scene_.probes[i].position) < 0)
+        add(Severity::warning, objectLabel("probe", scene_.probes[i].name, i),
+            "lies in a solid at the start: it reads no liquid there");
   }
 
   void lintBubbles() {

@@ -45,6 +45,25 @@ std::optional<Conflict> inflowConflict(const Scene& scene) {
   return std::nullopt;
 }
 
+std::optional<Conflict> outflowConflict(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.outflows.size(); ++i) {
+    const std::string table = "outflow." + std::to_string(i) + ".";
+    const OutflowSpec& outflow = scene.outflows[i];
+    if (auto conflict = ordered(table + "start", outflow.start, table + "stop", outflow.stop, "s"))
+      return conflict;
+  }
+  return std::nullopt;
+}
+
+/// The names of probes head the columns of a file.
+std::optional<Conflict> probeConflict(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.probes.size(); ++i)
+    if (const std::string& name = scene.probes[i].name; !name.empty() && !isFileSafe(name))
+      return Conflict{"probe." + std::to_string(i) + ".name",
+                      "= " + quoted(name) + " must be letters, digits, _ and -"};
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Conflict> findConflict(const Scene& scene) {
@@ -66,7 +85,9 @@ std::optional<Conflict> findConflict(const Scene& scene) {
   if (auto conflict =
           ordered("look.film_thin", scene.look.filmThin, "look.film_thick", scene.look.filmThick, "m"))
     return conflict;
-  return inflowConflict(scene);
+  if (auto conflict = inflowConflict(scene)) return conflict;
+  if (auto conflict = outflowConflict(scene)) return conflict;
+  return probeConflict(scene);
 }
 
 }  // namespace spume::coupling

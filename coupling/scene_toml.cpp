@@ -126,6 +126,14 @@ void shareCommonValues(Scene& scene) {
   scene.foam.density = scene.liquid.density;
 }
 
+/// Files of a scene lie beside it; where the scene is copied to, they must be found too.
+void findFiles(Scene& scene, const std::string& path) {
+  namespace fs = std::filesystem;
+  for (SolidSpec& solid : scene.solids)
+    if (!solid.shape.file.empty())
+      solid.shape.file = fs::absolute(fs::path(path).parent_path() / solid.shape.file).lexically_normal();
+}
+
 void checkTogether(const Scene& scene, const SceneDocument& document, const std::string& path) {
   if (const auto conflict = findConflict(scene))
     throw SceneError(document.place(conflict->key) + ": " + conflict->key + " " + conflict->message);
@@ -169,6 +177,7 @@ Scene readScene(const std::string& path, const Overrides& overrides) {
   Scene scene = SceneReader(document).read();
   if (!document.root().at_path("scene.name")) scene.name = std::filesystem::path(path).stem().string();
   shareCommonValues(scene);
+  findFiles(scene, path);
   checkTogether(scene, document, path);
   return scene;
 }

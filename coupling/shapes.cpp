@@ -21,22 +21,68 @@ double boxDistance(const ShapeSpec& box, const Eigen::Vector3d& x) {
   return distanceFromExcess(Eigen::Vector3d((x - centre).cwiseAbs() - half));
 }
 
-double cylinderDistance(const ShapeSpec& cylinder, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d axis = cylinder.axis.normalized();
-  const Eigen::Vector3d offset = x - cylinder.centre;
+/// Where a point lies in the half plane through an axis.
+struct AxialPoint {
+  double across, along;  // [m]
+};
+AxialPoint axialPoint(const ShapeSpec& shape, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d axis = shape.axis.normalized(), offset = x - shape.centre;
   const double along = offset.dot(axis);
-  const double across = (offset - along * axis).norm();
+  return {(offset - along * axis).norm(), along};
+}
+
+/// Distance from a rectangle of the half plane, < 0 inside.
+double rectangleDistance(const AxialPoint& p, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
+  const Eigen::Vector2d at(p.across, p.along);
+  return distanceFromExcess(Eigen::Vector2d((at - 0.5 * (lower + upper)).cwiseAbs() - 0.5 * (upper - lower)));
+}
+
+double cylinderDistance(const ShapeSpec& cylinder, const Eigen::Vector3d& x) {
+  const AxialPoint p = axialPoint(cylinder, x);
   return distanceFromExcess(
-      Eigen::Vector2d(across - cylinder.radius, std::abs(along) - 0.5 * cylinder.height));
+      Eigen::Vector2d(p.across - cylinder.radius, std::abs(p.along) - 0.5 * cylinder.height));
+}
+
+/// A vessel's section is an L of wall and bottom. Outside, the nearer of the two; inside, the nearer of the
+/// outer rectangle's edge and the room.
+double vesselDistance(const ShapeSpec& vessel, const Eigen::Vector3d& x) {
+  const AxialPoint p = axialPoint(vessel, x);
+  const double inner = 0.5 * vessel.innerDiameter, outer = inner + vessel.wallThickness;
+  const double bottom = -vessel.bottomThickness, rim = vessel.innerHeight;
+  const double wall = rectangleDistance(p, {inner, bottom}, {outer, rim});
+  const double floor = rectangleDistance(p, {-outer, bottom}, {outer, 0});
+  if (wall > 0 && floor > 0) return std::min(wall, floor);
+  const double room = distanceFromExcess(Eigen::Vector2d(p.across - inner, -p.along));
+  return std::max(rectangleDistance(p, {-outer, bottom}, {outer, rim}), -room);
+}
+
+Eigen::Vector3d vesselMiddle(const ShapeSpec& vessel) {
+  return vessel.centre + 0.5 * (vessel.innerHeight - vessel.bottomThickness) * vessel.axis.normalized();
 }
 
 bool needsRadius(ShapeKind kind) { return kind == ShapeKind::sphere || kind == ShapeKind::cylinder; }
-bool needsAxis(ShapeKind kind) { return kind == ShapeKind::cylinder || kind == ShapeKind::halfSpace; }
+bool needsAxis(ShapeKind kind) {
+  return kind == ShapeKind::cylinder || kind == ShapeKind::halfSpace || kind == ShapeKind::vessel;
+}
 
 /// Half extent of a cylinder along each world axis: its length and its disc seen from that axis.
-Eigen::Vector3d cylinderHalfExtent(const ShapeSpec& cylinder) {
-  const Eigen::Array3d axis = cylinder.axis.normalized().array();
-  return 0.5 * cylinder.height * axis.abs() + cylinder.radius * (1 - axis.square()).max(0.0).sqrt();
+Eigen::Vector3d cylinderHalfExtent(const Eigen::Vector3d& along, double height, double radius) {
+  const Eigen::Array3d axis = along.normalized().array();
+  return 0.5 * height * axis.abs() + radius * (1 - axis.square()).max(0.0).sqrt();
+}
+
+Eigen::Vector3d halfExtent(const ShapeSpec& shape) {
+  switch (shape.kind) {
+    case ShapeKind::sphere:
+      return Eigen::Vector3d::Constant(shape.radius);
+    case ShapeKind::cylinder:
+      return cylinderHalfExtent(shape.axis, shape.height, shape.radius);
+    case ShapeKind::vessel:
+      return cylinderHalfExtent(shape.axis, shape.innerHeight + shape.bottomThickness,
+                                0.5 * shape.innerDiameter + shape.wallThickness);
+    default:
+      return Eigen::Vector3d::Constant(kInfinity);
+  }
 }
 
 }  // namespace
@@ -51,17 +97,26 @@ double signedDistance(const ShapeSpec& shape, const Eigen::Vector3d& x) {
       return cylinderDistance(shape, x);
     case ShapeKind::halfSpace:
       return (x - shape.centre).dot(shape.axis.normalized());
+    case ShapeKind::vessel:
+      return vesselDistance(shape, x);
+    case ShapeKind::mesh:
+    case ShapeKind::levelSet:
+      break;
   }
   return kInfinity;
 }
 
+double roomInVessel(const ShapeSpec& vessel, const Eigen::Vector3d& x) {
+  const AxialPoint p = axialPoint(vessel, x);
+  return distanceFromExcess(Eigen::Vector2d(p.across - 0.5 * (vessel.innerDiameter + vessel.wallThickness),
+                                            -p.along - 0.5 * vessel.bottomThickness));
+}
+
 std::pair<Eigen::Vector3d, Eigen::Vector3d> bounds(const ShapeSpec& shape) {
   if (shape.kind == ShapeKind::box) return {shape.lower, shape.upper};
-  if (shape.kind == ShapeKind::halfSpace)
-    return {Eigen::Vector3d::Constant(-kInfinity), Eigen::Vector3d::Constant(kInfinity)};
-  const Eigen::Vector3d half =
-      shape.kind == ShapeKind::sphere ? Eigen::Vector3d::Constant(shape.radius) : cylinderHalfExtent(shape);
-  return {shape.centre - half, shape.centre + half};
+  const Eigen::Vector3d half = halfExtent(shape);
+  const Eigen::Vector3d middle = shape.kind == ShapeKind::vessel ? vesselMiddle(shape) : shape.centre;
+  return {middle - half, middle + half};
 }
 
 double thickness(const ShapeSpec& shape) {
@@ -72,23 +127,30 @@ double thickness(const ShapeSpec& shape) {
       return 2 * shape.radius;
     case ShapeKind::cylinder:
       return std::min(2 * shape.radius, shape.height);
-    case ShapeKind::halfSpace:
-      break;
+    case ShapeKind::vessel:
+      return std::min(shape.wallThickness, shape.bottomThickness);
+    default:
+      return kInfinity;
   }
-  return kInfinity;
 }
+
+bool isFromFile(ShapeKind kind) { return kind == ShapeKind::mesh || kind == ShapeKind::levelSet; }
 
 std::string defect(const ShapeSpec& shape) {
   if (shape.kind == ShapeKind::box && !((shape.upper - shape.lower).minCoeff() > 0))
     return "upper must exceed lower on every axis";
   if (needsRadius(shape.kind) && !(shape.radius > 0)) return "radius must be greater than 0 [m]";
   if (shape.kind == ShapeKind::cylinder && !(shape.height > 0)) return "height must be greater than 0 [m]";
+  if (shape.kind == ShapeKind::vessel &&
+      !(std::min({shape.innerDiameter, shape.innerHeight, shape.wallThickness, shape.bottomThickness}) > 0))
+    return "inner_diameter, inner_height, wall_thickness and bottom_thickness must be greater than 0 [m]";
+  if (isFromFile(shape.kind) && shape.file.empty()) return "file must name the mesh or the VDB";
   if (needsAxis(shape.kind) && !(shape.axis.norm() > 0)) return "axis must not be the zero vector";
   return {};
 }
 
 const char* nameOf(ShapeKind kind) {
-  constexpr const char* kNames[] = {"box", "sphere", "cylinder", "half_space"};
+  constexpr const char* kNames[] = {"box", "sphere", "cylinder", "half_space", "vessel", "mesh", "level_set"};
   return kNames[static_cast<int>(kind)];
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "coupling/probes.h"
 #include "coupling/scene_builder.h"
 #include "coupling/time_step.h"
 #include "coupling/vdb_liquid_sampler.h"
@@ -72,12 +73,14 @@ struct Simulation::Internals {
       : scene(s),
         liquid(std::move(solver)),
         foam(s.foam),
-        entrainment(s.coupling.entrainment, s.dx(), s.seed) {}
+        entrainment(s.coupling.entrainment, s.dx(), s.seed),
+        probes(s) {}
 
   const Scene scene;
   fluid::LiquidSolver liquid;
   foam::FoamSolver foam;
   Entrainment entrainment;
+  const Probes probes;
 
   foam::BubbleStore bubbles;
   Reservoirs reservoirs;
@@ -98,7 +101,9 @@ struct Simulation::Internals {
   double nextDt(double remaining) const {
     return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), remaining);
   }
-  VdbLiquidSampler sampler() const { return {liquid.state(), liquid.solids()}; }
+  VdbLiquidSampler sampler() const {
+    return {liquid.state(), liquid.solids(), solidVelocity(scene, liquid.state().time)};
+  }
   fluid::ImmersedGas immersedGas() const;
 };
 
@@ -212,6 +217,7 @@ StepReport Simulation::Internals::attempt(double dt) {
   stepFoam(dt, report);
   removeLeavers(report);
   book(dt, report);
+  report.probes = probes.read(liquid);
   return report;
 }
 

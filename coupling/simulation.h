@@ -41,6 +41,7 @@ struct StepReport {
   std::size_t births = 0, bursts = 0;  ///< in this step
   double secondsLiquid = 0, secondsEntrainment = 0, secondsFoam = 0;
   std::vector<Event> events;
+  std::vector<double> probes;  ///< readings at the end of the step, as `probeColumns` orders them
 };
 
 /// A row of frames.csv and all its steps.

@@ -49,6 +49,18 @@ std::string keptRows(const std::string& contents, int last, std::string& header)
   return kept;
 }
 
+std::string probeHeader(const std::vector<ColumnInfo>& probes) {
+  std::string header = "step,time";
+  for (const ColumnInfo& probe : probes) header += "," + probe.name;
+  return header;
+}
+
+std::string probeRow(const StepReport& report) {
+  std::string row = std::to_string(report.step) + "," + exactText(report.time);
+  for (const double value : report.probes) row += "," + exactText(value);
+  return row;
+}
+
 /// Every stage either module timed, in their order, with what is added for each.
 template <typename Visit>
 void forEachStage(const StepReport& report, const Visit& visit) {
@@ -68,10 +80,12 @@ std::vector<ColumnInfo> stepColumns() { return infosOf(columnsOfSteps()); }
 std::vector<ColumnInfo> frameColumns() { return infosOf(columnsOfFrames()); }
 std::vector<ColumnInfo> eventColumns() { return infosOf(columnsOfEvents()); }
 
-StatisticsWriter::StatisticsWriter(const std::string& folder, int step, int frame)
+StatisticsWriter::StatisticsWriter(const std::string& folder, int step, int frame,
+                                   const std::vector<ColumnInfo>& probes)
     : steps_(openFile(folder + "/steps.csv", "", step)),
       frames_(openFile(folder + "/frames.csv", headerOf(columnsOfFrames()), frame)),
       events_(openFile(folder + "/events.csv", headerOf(columnsOfEvents()), step)) {
+  if (!probes.empty()) probes_ = openFile(folder + "/probes.csv", probeHeader(probes), step);
   const std::string fixed = headerOf(columnsOfSteps());
   if (steps_.header.size() <= fixed.size()) return;
   std::istringstream stages(steps_.header.substr(fixed.size()));  // ",seconds_a,seconds_b"
@@ -117,11 +131,12 @@ void StatisticsWriter::add(const StepReport& report) {
   for (const double spent : seconds) row += "," + exactText(spent);
   writeRow(steps_, row);
   for (const Event& event : report.events) writeRow(events_, rowOf(columnsOfEvents(), {report.step, event}));
+  if (!report.probes.empty()) writeRow(probes_, probeRow(report));
 }
 
 void StatisticsWriter::add(const FrameReport& report) {
   writeRow(frames_, rowOf(columnsOfFrames(), report));
-  for (File* file : {&steps_, &frames_, &events_}) {
+  for (File* file : {&steps_, &frames_, &events_, &probes_}) {
     errno = 0;
     file->stream.flush();
     if (!file->stream) throw FileError(file->path + ": cannot write: " + std::strerror(errno ? errno : EIO));

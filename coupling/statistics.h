@@ -20,13 +20,14 @@ std::vector<ColumnInfo> stepColumns();
 std::vector<ColumnInfo> frameColumns();
 std::vector<ColumnInfo> eventColumns();
 
-/// steps.csv, frames.csv and events.csv of a run, one row a step, frame or event, numbers that read back
-/// exactly.
+/// steps.csv, frames.csv, events.csv and probes.csv of a run, one row a step, frame, event or reading of the
+/// probes, numbers that read back exactly.
 class StatisticsWriter {
  public:
   /// Starts new files, or, where `step` > 0, keeps the rows up to and including step `step` and frame `frame`
-  /// of the files a resumed run left. Throws FileError.
-  explicit StatisticsWriter(const std::string& folder, int step = 0, int frame = 0);
+  /// of the files a resumed run left. probes.csv is written if there are `probes`. Throws FileError.
+  explicit StatisticsWriter(const std::string& folder, int step = 0, int frame = 0,
+                            const std::vector<ColumnInfo>& probes = {});
 
   /// Appends the step's row and its events. Throws FileError if a row cannot be written.
   void add(const StepReport& report);
@@ -43,7 +44,7 @@ class StatisticsWriter {
   static void writeRow(File& file, const std::string& row);
   void startSteps(const StepReport& first);
 
-  File steps_, frames_, events_;
+  File steps_, frames_, events_, probes_;
   std::vector<std::string> stages_;  ///< names of the trailing columns of steps.csv
 };
 

@@ -88,20 +88,44 @@ Walls wallsOf(const toml::node& node) {
   return walls;
 }
 
-Animated animationOf(const toml::table& table, const KeyRange& range) {
-  const std::string expected = "expected a number or { keys = [[t, value], ...] } with increasing times";
-  const toml::array* keys = table["keys"].as_array();
-  if (!keys || table.size() != 1 || keys->empty()) throw BadValue("is a table; " + expected);
-  Animated animation;
-  animation.keys.clear();
-  for (const toml::node& entry : *keys) {
-    const toml::array& pair = arrayOf(entry, 2, range);
-    const double time = numberIn(pair[0], {-kLongestTime, kLongestTime, "s"});
-    if (!animation.keys.empty() && time <= animation.keys.back().first)
+/// The keys of an animation whose value has `length` numbers: [t, value ...] each, times increasing.
+template <typename Keys, typename ReadValue>
+Keys keysOf(const toml::table& table, std::size_t length, const KeyRange& range, const ReadValue& readValue) {
+  const std::string expected = length == 1 ? "expected a number or { keys = [[t, value], ...] }"
+                                           : "expected 3 numbers or { keys = [[t, x, y, z], ...] }";
+  const toml::array* entries = table["keys"].as_array();
+  if (!entries || table.size() != 1 || entries->empty())
+    throw BadValue("is a table; " + expected + " with increasing times");
+  Keys keys;
+  for (const toml::node& entry : *entries) {
+    const toml::array& key = arrayOf(entry, 1 + length, range);
+    const double time = numberIn(key[0], {-kLongestTime, kLongestTime, "s"});
+    if (!keys.empty() && time <= keys.back().first)
       throw BadValue("has a key at " + exactText(time) + " s that is not later than the one before it; " +
-                     expected);
-    animation.keys.emplace_back(time, numberIn(pair[1], range));
+                     expected + " with increasing times");
+    keys.emplace_back(time, readValue(key));
   }
+  return keys;
+}
+
+Animated animationOf(const toml::node& node, const KeyRange& range) {
+  Animated animation;
+  if (!node.is_table()) return Animated(numberIn(node, range));
+  animation.keys = keysOf<decltype(animation.keys)>(
+      *node.as_table(), 1, range, [&](const toml::array& key) { return numberIn(key[1], range); });
+  return animation;
+}
+
+Eigen::Vector3d vectorIn(const toml::array& array, std::size_t first, const KeyRange& range) {
+  return {numberIn(array[first], range), numberIn(array[first + 1], range),
+          numberIn(array[first + 2], range)};
+}
+
+AnimatedVector vectorAnimationOf(const toml::node& node, const KeyRange& range) {
+  AnimatedVector animation;
+  if (!node.is_table()) return AnimatedVector(vectorIn(arrayOf(node, 3, range), 0, range));
+  animation.keys = keysOf<decltype(animation.keys)>(
+      *node.as_table(), 3, range, [&](const toml::array& key) { return vectorIn(key, 1, range); });
   return animation;
 }
 
@@ -112,12 +136,26 @@ std::string vectorText(const Vector& vector) {
   return "[" + text + "]";
 }
 
-std::string animationText(const Animated& animation) {
-  if (animation.keys.size() == 1) return exactText(animation.keys.front().second);
+/// One constant, or all keys, each as `keyText` writes it.
+template <typename Keys, typename ValueText, typename KeyText>
+std::string animationText(const Keys& keys, const ValueText& valueText, const KeyText& keyText) {
+  if (keys.size() == 1) return valueText(keys.front().second);
   std::string text;
-  for (const auto& [time, value] : animation.keys)
-    text += (text.empty() ? "[" : ", [") + exactText(time) + ", " + exactText(value) + "]";
+  for (const auto& [time, value] : keys) text.append(text.empty() ? "" : ", ").append(keyText(time, value));
   return "{ keys = [" + text + "] }";
+}
+
+std::string animationText(const Animated& animation) {
+  return animationText(animation.keys, exactText, [](double time, double value) {
+    return "[" + exactText(time) + ", " + exactText(value) + "]";
+  });
+}
+
+std::string animationText(const AnimatedVector& animation) {
+  return animationText(animation.keys, vectorText<Eigen::Vector3d>,
+                       [](double time, const Eigen::Vector3d& value) {
+                         return vectorText(Eigen::Vector4d(time, value.x(), value.y(), value.z()));
+                       });
 }
 
 std::string wallsText(const Walls& walls) {
@@ -143,14 +181,9 @@ void assign(const Slot& slot, const KeyRange& range, const toml::node& node) {
                  const toml::array& array = arrayOf(node, 2, range);
                  for (int i = 0; i < 2; ++i) (*value)[i] = static_cast<int>(integerIn(array[i], range));
                },
-               [&](Eigen::Vector3d* value) {
-                 const toml::array& array = arrayOf(node, 3, range);
-                 for (int i = 0; i < 3; ++i) (*value)[i] = numberIn(array[i], range);
-               },
-               [&](Animated* value) {
-                 const toml::table* table = node.as_table();
-                 *value = table ? animationOf(*table, range) : Animated(numberIn(node, range));
-               },
+               [&](Eigen::Vector3d* value) { *value = vectorIn(arrayOf(node, 3, range), 0, range); },
+               [&](Animated* value) { *value = animationOf(node, range); },
+               [&](AnimatedVector* value) { *value = vectorAnimationOf(node, range); },
                [&](Walls* value) { *value = wallsOf(node); },
                [&](const ChoiceSlot& choice) {
                  const std::string expected = "one of: " + joined(choice.names);
@@ -168,6 +201,7 @@ std::string toToml(const Slot& slot) {
                              [](const Eigen::Vector2i* value) { return vectorText(*value); },
                              [](const Eigen::Vector3d* value) { return vectorText(*value); },
                              [](const Animated* value) { return animationText(*value); },
+                             [](const AnimatedVector* value) { return animationText(*value); },
                              [](const Walls* value) { return wallsText(*value); },
                              [](const ChoiceSlot& choice) { return quoted(choice.names.at(choice.get())); }},
                     slot);
@@ -175,18 +209,20 @@ std::string toToml(const Slot& slot) {
 
 std::string typeName(const Slot& slot) {
   return std::visit(
-      Overload{[](const bool*) { return std::string("true or false"); },
-               [](const int*) { return std::string("whole number"); },
-               [](const std::uint64_t*) { return std::string("whole number"); },
-               [](const double*) { return std::string("number"); },
-               [](const std::string*) { return std::string("string"); },
-               [](const Eigen::Vector2i*) { return std::string("2 whole numbers"); },
-               [](const Eigen::Vector3d*) { return std::string("3 numbers"); },
-               [](const Animated*) { return std::string("number or { keys = [[t, value], ...] }"); },
-               [](const Walls*) {
-                 return "list out of " + wallsText({true, true, true, true, true, true});
-               },
-               [](const ChoiceSlot& choice) { return "one of " + joined(choice.names); }},
+      Overload{
+          [](const bool*) { return std::string("true or false"); },
+          [](const int*) { return std::string("whole number"); },
+          [](const std::uint64_t*) { return std::string("whole number"); },
+          [](const double*) { return std::string("number"); },
+          [](const std::string*) { return std::string("string"); },
+          [](const Eigen::Vector2i*) { return std::string("2 whole numbers"); },
+          [](const Eigen::Vector3d*) { return std::string("3 numbers"); },
+          [](const Animated*) { return std::string("number or { keys = [[t, value], ...] }"); },
+          [](const AnimatedVector*) { return std::string("3 numbers or { keys = [[t, x, y, z], ...] }"); },
+          [](const Walls*) {
+            return "list out of " + wallsText({true, true, true, true, true, true});
+          },
+          [](const ChoiceSlot& choice) { return "one of " + joined(choice.names); }},
       slot);
 }
 

@@ -47,6 +47,7 @@ struct LiquidSolver::Internals {
   LiquidState state, before;
   SolidBoundary solids;
   InflowSet inflows;
+  OutflowSet outflows;
 
   SolidExtension extension;
   LevelSetAdvection levelSetAdvection;
@@ -93,6 +94,7 @@ LiquidSolver::Internals::Internals(FluidParams p, LiquidSetup s)
       setup(std::move(s)),
       solids(buildSolidBoundary(setup.grid, setup.walls, setup.solids, 0)),
       inflows(setup.grid, setup.inflows, params.seed),
+      outflows(setup.grid, setup.outflows),
       levelSetAdvection(setup.grid),
       reinitializer(setup.grid),
       velocityAdvector(setup.grid),
@@ -133,7 +135,9 @@ int LiquidSolver::Internals::subStepsFor(double dt) const {
   // n sub-steps of h = dt/n, each with (speed + g h) h <= cfl dx: gravity acts within a sub-step only, the
   // next one counts again.
   const double reach = params.cfl * state.grid.dx;
-  const double steps = std::ceil(dt / longestStep(reach) - kRoundOff);
+  // A solid must not pass a cell in one sub-step: what it uncovers is filled from the cells beside it.
+  const double swept = fastestSolid(state.grid, setup.solids, solids, state.time + dt) * dt / state.grid.dx;
+  const double steps = std::ceil(std::max(dt / longestStep(reach), swept) - kRoundOff);
   if (!(steps <= kMaxSubSteps)) {
     std::ostringstream message;
     message << "liquid: the speed " << maxSpeed << " m/s at t = " << state.time << " s would need " << steps
@@ -155,9 +159,10 @@ void LiquidSolver::Internals::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
   levelSetAdvection.advance(params.levelSetTransport, state.velocity, dt, state.phi);
   admitAir(state.grid, solids, state.velocity, dt, state.phi);
-  extension.apply(state.phi);
   advectMarkers(markerScene(), state.velocity, dt, state.positive);
   advectMarkers(markerScene(), state.velocity, dt, state.negative);
+  report.drained += outflows.empty(state.time + dt, solids, state.phi, state.negative, volumeControl);
+  extension.apply(state.phi);
   sorter.compact(state.positive);
   sorter.compact(state.negative);
 }
@@ -206,6 +211,7 @@ void LiquidSolver::Internals::project(double dt, LiquidStepReport& report) {
   source.fill(0);
   if (params.volumeControl) volumeControl.addSource(bodies, solids, dt, source);
   inflows.addSource(source);
+  report.drained += outflows.pump(state.time + dt, dt, state.phi, solids, source, volumeControl);
   const ProjectionReport solve =
       projection.project(state.phi, solids, dt, source, state.velocity, state.pressureGradient);
   report.pressureIterations += solve.iterations;
@@ -334,6 +340,7 @@ double LiquidSolver::stableDt(int maxSubSteps) const {
 double LiquidSolver::liquidVolume() const {
   return fluid::liquidVolume(internals_->state.grid, internals_->state.phi, internals_->solids);
 }
+const DenseField<float>& LiquidSolver::pressure() const { return internals_->projection.pressure(); }
 const LiquidState& LiquidSolver::state() const { return internals_->state; }
 const SolidBoundary& LiquidSolver::solids() const { return internals_->solids; }
 const FluidParams& LiquidSolver::params() const { return internals_->params; }

@@ -8,6 +8,7 @@
 #include "fluid/fluid_params.h"
 #include "fluid/inflow.h"
 #include "fluid/liquid_state.h"
+#include "fluid/outflow.h"
 #include "fluid/solid_boundary.h"
 #include "fluid/stage_clock.h"
 
@@ -47,7 +48,7 @@ struct LiquidStepReport {
   double liquidVolume = 0;      ///< of the grid liquid, at the end
   double targetVolume = 0;      ///< what volume control holds: initial + poured - drained + immersed gas
   double poured = 0;            ///< through inflows in this step
-  double drained = 0;           ///< out of the domain in this step
+  double drained = 0;           ///< out of the domain and through outflows in this step
   double kineticEnergy = 0, potentialEnergy = 0;  ///< [J]
   std::size_t positiveMarkers = 0, negativeMarkers = 0;
   std::vector<StageTime> stages;
@@ -59,6 +60,7 @@ struct LiquidSetup {
   DomainWalls walls;
   std::vector<SolidObject> solids;
   std::vector<Inflow> inflows;
+  std::vector<Outflow> outflows = {};
 };
 
 /// Particle-level-set Navier-Stokes liquid with a free surface [Enright et al. 2002; Batty et al. 2007].
@@ -86,6 +88,8 @@ class LiquidSolver {
   /// Volume of the grid liquid now, immersed bubbles included [m^3].
   double liquidVolume() const;
   const LiquidState& state() const;
+  /// Pressure in the cells of the liquid as the last sub-step left it [Pa]; 0 elsewhere and before the first.
+  const DenseField<float>& pressure() const;
   const SolidBoundary& solids() const;
   const FluidParams& params() const;
 

@@ -6,6 +6,7 @@
 
 #include "fluid/cut_fractions.h"
 #include "fluid/parallel.h"
+#include "fluid/split_cells.h"
 
 namespace spume::fluid {
 namespace {
@@ -26,15 +27,31 @@ double distanceToWalls(const GridSpec& grid, const DomainWalls& walls, const Eig
   return distance;
 }
 
-/// nodePsi = min(nodePsi, psi of the solids that move, or of those that do not).
-void sampleNodes(const GridSpec& grid, const std::vector<SolidObject>& solids, bool moving, double t,
-                 DenseField<float>& nodePsi) {
+using Distance = std::function<double(const Eigen::Vector3d&)>;
+
+/// The solids that move, or those that do not, as they stand at time t.
+struct Snapshot {
+  std::vector<Distance> psi;
+  std::vector<std::int16_t> object;
+
+  Snapshot(const std::vector<SolidObject>& solids, bool moving, double t) {
+    for (std::size_t n = 0; n < solids.size(); ++n) {
+      const SolidObject& solid = solids[n];
+      if (solid.moves != moving) continue;
+      psi.push_back(solid.frozen ? solid.frozen(t)
+                                 : [&solid, t](const Eigen::Vector3d& x) { return solid.psi(x, t); });
+      object.push_back(static_cast<std::int16_t>(n));
+    }
+  }
+};
+
+/// nodePsi = min(nodePsi, psi of the solids).
+void sampleNodes(const GridSpec& grid, const Snapshot& solids, DenseField<float>& nodePsi) {
   const double snap = kOnSurface * grid.dx;
   forEachCell(nodePsi.size(), [&](int i, int j, int k) {
     const Eigen::Vector3d x = grid.toWorld(Eigen::Vector3d(i, j, k));
-    for (const SolidObject& solid : solids) {
-      if (solid.moves != moving) continue;
-      const double psi = solid.psi(x, t);
+    for (const Distance& distance : solids.psi) {
+      const double psi = distance(x);
       const auto value = static_cast<float>(std::abs(psi) < snap ? -snap : psi);
       nodePsi(i, j, k) = std::min(nodePsi(i, j, k), value);
     }
@@ -42,18 +59,17 @@ void sampleNodes(const GridSpec& grid, const std::vector<SolidObject>& solids, b
 }
 
 /// The same at cell centres, ghosts included, with the index of the nearest.
-void sampleCentres(const GridSpec& grid, const std::vector<SolidObject>& solids, bool moving, double t,
-                   DenseField<float>& psi, DenseField<std::int16_t>& object) {
+void sampleCentres(const GridSpec& grid, const Snapshot& solids, DenseField<float>& psi,
+                   DenseField<std::int16_t>& object) {
   const Eigen::Vector3i padded = grid.cells + Eigen::Vector3i::Constant(2 * kGhost);
   forEachCell(padded, [&](int pi, int pj, int pk) {
     const int i = pi - kGhost, j = pj - kGhost, k = pk - kGhost;
     const Eigen::Vector3d x = grid.cellCentre(i, j, k);
-    for (std::size_t n = 0; n < solids.size(); ++n) {
-      if (solids[n].moves != moving) continue;
-      const auto distance = static_cast<float>(solids[n].psi(x, t));
+    for (std::size_t n = 0; n < solids.psi.size(); ++n) {
+      const auto distance = static_cast<float>(solids.psi[n](x));
       if (distance >= psi(i, j, k)) continue;
       psi(i, j, k) = distance;
-      object(i, j, k) = static_cast<std::int16_t>(n);
+      object(i, j, k) = solids.object[n];
     }
   });
 }
@@ -89,24 +105,31 @@ float openFraction(const DenseField<float>& node, int axis, int i, int j, int k)
   return open < kMinOpenFraction ? 0 : open;
 }
 
-void measureFaces(const GridSpec& grid, const std::vector<SolidObject>& solids, double t,
-                  SolidBoundary& boundary) {
-  const bool anyMoves =
-      std::any_of(solids.begin(), solids.end(), [](const SolidObject& s) { return s.moves; });
+bool isWall(const SolidBoundary& boundary, int axis, const Eigen::Vector3i& face) {
+  return (face[axis] == 0 && boundary.walls.closed[2 * axis]) ||
+         (face[axis] == boundary.open[axis].size()[axis] - 1 && boundary.walls.closed[2 * axis + 1]);
+}
+
+void openFaces(SolidBoundary& boundary) {
   for (int a = 0; a < 3; ++a) {
-    const int last = grid.cells[a];
     boundary.prescribed[a].fill(0);
     forEachCell(boundary.open[a].size(), [&](int i, int j, int k) {
-      const int n = Eigen::Vector3i(i, j, k)[a];
-      const bool closed =
-          (n == 0 && boundary.walls.closed[2 * a]) || (n == last && boundary.walls.closed[2 * a + 1]);
-      const float open = closed ? 0 : openFraction(boundary.nodePsi, a, i, j, k);
-      const bool moved = anyMoves && !closed && open < 1;
-      boundary.open[a](i, j, k) = open;
+      boundary.open[a](i, j, k) =
+          isWall(boundary, a, {i, j, k}) ? 0 : openFraction(boundary.nodePsi, a, i, j, k);
+    });
+  }
+}
+
+void moveFaces(const GridSpec& grid, const std::vector<SolidObject>& solids, double t,
+               SolidBoundary& boundary) {
+  const bool anyMoves =
+      std::any_of(solids.begin(), solids.end(), [](const SolidObject& s) { return s.moves; });
+  for (int a = 0; a < 3; ++a)
+    forEachCell(boundary.velocity[a].size(), [&](int i, int j, int k) {
+      const bool moved = anyMoves && boundary.open[a](i, j, k) < 1 && !isWall(boundary, a, {i, j, k});
       boundary.velocity[a](i, j, k) =
           moved ? static_cast<float>(solidVelocity(grid, solids, t, a, i, j, k)) : 0;
     });
-  }
 }
 
 void measureCells(const GridSpec& grid, SolidBoundary& boundary) {
@@ -116,6 +139,21 @@ void measureCells(const GridSpec& grid, SolidBoundary& boundary) {
     boundary.cellFraction(i, j, k) =
         boundary.hasOpenFace(i, j, k) ? static_cast<float>(cubeFraction(corner)) : 0;
   });
+}
+
+/// Everything that follows from the solids at rest and those that move, at time t.
+void measure(const GridSpec& grid, const std::vector<SolidObject>& solids, double t,
+             SolidBoundary& boundary) {
+  boundary.nodePsi = boundary.restNodePsi;
+  boundary.psi = boundary.restPsi;
+  boundary.object = boundary.restObject;
+  const Snapshot moving(solids, true, t);
+  sampleNodes(grid, moving, boundary.nodePsi);
+  sampleCentres(grid, moving, boundary.psi, boundary.object);
+  openFaces(boundary);
+  measureCells(grid, boundary);
+  closeSplitCells(grid.cells, boundary);
+  moveFaces(grid, solids, t, boundary);
 }
 
 }  // namespace
@@ -132,29 +170,34 @@ SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
   boundary.prescribed = MacField<std::uint8_t>(grid.cells);
   boundary.cellFraction = DenseField<float>(grid.cells);
 
-  sampleNodes(grid, solids, false, t, boundary.restNodePsi);
+  const Snapshot resting(solids, false, t);
+  sampleNodes(grid, resting, boundary.restNodePsi);
   sampleWalls(grid, walls, boundary.restPsi);
-  sampleCentres(grid, solids, false, t, boundary.restPsi, boundary.restObject);
-  boundary.nodePsi = boundary.restNodePsi;
-  boundary.psi = boundary.restPsi;
-  boundary.object = boundary.restObject;
-  sampleNodes(grid, solids, true, t, boundary.nodePsi);
-  sampleCentres(grid, solids, true, t, boundary.psi, boundary.object);
-  measureFaces(grid, solids, t, boundary);
-  measureCells(grid, boundary);
+  sampleCentres(grid, resting, boundary.restPsi, boundary.restObject);
+  measure(grid, solids, t, boundary);
   return boundary;
 }
 
 void updateSolidBoundary(const GridSpec& grid, const DomainWalls&, const std::vector<SolidObject>& solids,
                          double t, SolidBoundary& boundary) {
   if (std::none_of(solids.begin(), solids.end(), [](const SolidObject& s) { return s.moves; })) return;
-  boundary.nodePsi = boundary.restNodePsi;
-  boundary.psi = boundary.restPsi;
-  boundary.object = boundary.restObject;
-  sampleNodes(grid, solids, true, t, boundary.nodePsi);
-  sampleCentres(grid, solids, true, t, boundary.psi, boundary.object);
-  measureFaces(grid, solids, t, boundary);
-  measureCells(grid, boundary);
+  measure(grid, solids, t, boundary);
+}
+
+double fastestSolid(const GridSpec& grid, const std::vector<SolidObject>& solids,
+                    const SolidBoundary& boundary, double t) {
+  if (std::none_of(solids.begin(), solids.end(), [](const SolidObject& s) { return s.moves; })) return 0;
+  const auto slab = [&](int i) {
+    double fastest = 0;
+    for (int j = 0; j < grid.cells.y(); ++j)
+      for (int k = 0; k < grid.cells.z(); ++k) {
+        const int n = boundary.object(i, j, k);
+        if (n < 0 || !solids[n].moves || std::abs(boundary.psi(i, j, k)) > grid.dx) continue;
+        fastest = std::max(fastest, solids[n].velocity(grid.cellCentre(i, j, k), t).norm());
+      }
+    return fastest;
+  };
+  return reduceSlabs(grid.cells.x(), 0.0, slab, [](double a, double b) { return std::max(a, b); });
 }
 
 }  // namespace spume::fluid

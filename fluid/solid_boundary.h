@@ -19,6 +19,8 @@ struct SolidObject {
   std::function<double(const Eigen::Vector3d& x, double t)> psi;
   std::function<Eigen::Vector3d(const Eigen::Vector3d& x, double t)> velocity;  ///< empty: at rest
   bool moves = false;
+  /// psi at one time, for many points; empty: psi itself is asked.
+  std::function<std::function<double(const Eigen::Vector3d& x)>(double t)> frozen = {};
 };
 
 /// Which of the six domain faces are walls (the others are open to the air). Order: -x +x -y +y -z +z.
@@ -59,8 +61,9 @@ struct SolidBoundary {
   }
 };
 
-/// Builds the boundary at time t. Corners are sampled, so that a wall at least one cell thick is found at any
-/// sub-cell position; fractions are exact for the linear interpolant of the corner values.
+/// Builds the boundary at time t. Corners are sampled and fractions are exact for the linear interpolant of
+/// the corner values. A cell that a thin wall splits keeps one of its parts only, the larger: so nothing
+/// flows through a wall at least one cell thick, at any position and angle.
 SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
                                  const std::vector<SolidObject>& solids, double t);
 
@@ -68,5 +71,9 @@ SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
 /// their `prescribed` mark: stamp the inflows afterwards.
 void updateSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
                          const std::vector<SolidObject>& solids, double t, SolidBoundary& boundary);
+
+/// Largest speed [m/s] of the surfaces of moving solids at time t, near where `boundary` has them.
+double fastestSolid(const GridSpec& grid, const std::vector<SolidObject>& solids,
+                    const SolidBoundary& boundary, double t);
 
 }  // namespace spume::fluid

@@ -98,6 +98,17 @@ double VolumeControl::bookOutflow(const DenseField<float>& phi, const SolidBound
   return drained;
 }
 
+double VolumeControl::bookDrained(const Eigen::Vector3i& cell, double volume) {
+  std::int32_t body = lastLabel_(cell);
+  if (body < 0)
+    body =
+        largestNear(grid_, lastLabel_, lastBodies_, grid_.cellCentre(cell.x(), cell.y(), cell.z()), kNearby);
+  double& target = body < 0 ? ledger_.unassigned : ledger_.target[body];
+  const double out = std::min(target, volume);
+  target -= out;
+  return out;
+}
+
 /// Notes which old body each cell's liquid came from, as pairs (new, old) without repeats within a slab.
 void VolumeControl::traceBack(const LiquidBodies& bodies, const MacVelocity& velocity, double dt) {
   const float steps = static_cast<float>(0.5 * dt / grid_.dx);

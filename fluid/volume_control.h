@@ -36,6 +36,10 @@ class VolumeControl {
   double bookOutflow(const DenseField<float>& phi, const SolidBoundary& boundary, const MacVelocity& velocity,
                      double dt);
 
+  /// Subtracts liquid [m^3] taken out of a cell from the body that is or was last there or nearby; returns what
+  /// that body could give.
+  double bookDrained(const Eigen::Vector3i& cell, double volume);
+
   /// Moves the targets from the bodies of the last call to `bodies`, adds what was poured, finds each
   /// bubble's body. `velocity` carried the liquid over the dt [s] between the two.
   void update(const LiquidBodies& bodies, const MacVelocity& velocity, double dt,

@@ -29,6 +29,30 @@ TEST(SceneLint, ThinSolidIsNamedWithTheResolutionItNeeds) {
   EXPECT_TRUE(mentions(lintScene(scene), "solid 'slab'", "at least 82"));  // 0.16 m / (1/512 m), up
 }
 
+TEST(SceneLint, OverlapsThinVesselsAndBuriedProbesAreNamed) {
+  Scene scene = pouring();  // cells of 2.5 mm
+  SolidSpec mug;
+  mug.name = "mug";
+  mug.shape.kind = ShapeKind::vessel;
+  mug.shape.centre = {0.08, 0.02, 0.08};
+  mug.shape.wallThickness = 0.0021;
+  scene.solids = {mug};
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'mug'", "at least 77"));  // 0.16 m / 2.1 mm, up
+  EXPECT_FALSE(mentions(lintScene(scene), "solid 'mug'", "overlaps"));
+  SolidSpec ball;
+  ball.name = "ball";
+  ball.shape.kind = ShapeKind::sphere;
+  ball.shape.centre = {0.08, 0.02, 0.08};
+  ball.shape.radius = 0.01;
+  scene.solids.push_back(ball);
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'mug'", "overlaps solid 'ball'"));
+  scene.solids[1].motion.position = Eigen::Vector3d(0, 0.05, 0);  // in the room of the mug
+  EXPECT_FALSE(mentions(lintScene(scene), "solid 'mug'", "overlaps"));
+  scene.probes.resize(1);
+  scene.probes[0].position = {0.08, 0.07, 0.08};
+  EXPECT_TRUE(mentions(lintScene(scene), "probe 0", "lies in a solid"));
+}
+
 TEST(SceneLint, LargeBubblesThinJetsAndFastJetsAreFound) {
   Scene scene = pouring();
   scene.coupling.entrainment.maxRadius = 0.005;

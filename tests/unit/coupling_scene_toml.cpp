@@ -38,6 +38,8 @@ Scene unusualScene() {
       if (auto* value = std::get_if<int*>(&slot)) **value = static_cast<int>(between);
       if (auto* value = std::get_if<bool*>(&slot)) **value = !**value;
       if (auto* value = std::get_if<Animated*>(&slot)) (*value)->keys = {{0.1, 1.0 / 3}, {0.7, between}};
+      if (auto* value = std::get_if<AnimatedVector*>(&slot))
+        (*value)->keys = {{0.1, {1.0 / 3, 0, 1}}, {0.7, {between, between, 1.0 / 7}}};
     }
   }
   return scene;
@@ -97,6 +99,10 @@ TEST(SceneToml, WrittenSceneReadsBackToTheSameBits) {
   scene.coupling.entrainment.maxRadius = 4e-3 / 3;
   scene.solids[0].shape = {ShapeKind::box, {-1, -1, -1}, {1. / 3, 1, 1}, {0, 0, 0}, {0, 1, 0}, 0, 0};
   scene.liquidBodies[0].shape = {ShapeKind::box, {-1, -1, -1}, {1. / 7, 1, 1}, {0, 0, 0}, {0, 1, 0}, 0, 0};
+  scene.outflows[0].shape = {ShapeKind::sphere, {0, 0, 0}, {0, 0, 0}, {1, 1, 1}, {0, 1, 0}, 1. / 3, 0};
+  scene.outflows[0].mode = DrainMode::rate;
+  scene.outflows[0].start = 0.125;
+  scene.probes[0] = {"depth", ProbeKind::height, {1. / 3, 1, 1}, {}};
   scene.inflows[0] = {"jet", {2, 2, 2}, {0, 0.1, 0.3}, 0.3, scene.inflows[0].speed, 0.1, 1. / 3, 2};
   scene.liquid.markerRadiusMin = 0.2;
   scene.bubbles = {{{0.1, 2, 2.5}, {1. / 3, 0, 0}, 1e-3 / 7, {}}};

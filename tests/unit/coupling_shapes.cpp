@@ -20,6 +20,19 @@ ShapeSpec sphere() { return {ShapeKind::sphere, kZero, kZero, {1, 2, 3}, {0, 1, 
 ShapeSpec cylinder() { return {ShapeKind::cylinder, kZero, kZero, {1, 0, 0}, {0, 0, 2}, 1, 4}; }
 ShapeSpec halfSpace() { return {ShapeKind::halfSpace, kZero, kZero, {0, 1, 0}, {0, 3, 0}, 0, 0}; }
 
+/// A mug of inner radius 1 and height 3 about the z axis, walls 0.5 thick, bottom 0.25.
+ShapeSpec mug() {
+  ShapeSpec shape;
+  shape.kind = ShapeKind::vessel;
+  shape.centre = {1, 0, 0};
+  shape.axis = {0, 0, 2};
+  shape.innerDiameter = 2;
+  shape.innerHeight = 3;
+  shape.wallThickness = 0.5;
+  shape.bottomThickness = 0.25;
+  return shape;
+}
+
 TEST(Shapes, BoxDistanceAtFaceEdgeCornerAndInside) {
   EXPECT_NEAR(signedDistance(box(), {2, 0, 0}), 1, kRoundOff);
   EXPECT_NEAR(signedDistance(box(), {4, 6, 0}), 5, kRoundOff);
@@ -41,10 +54,28 @@ TEST(Shapes, CylinderDistanceAtSideCapRimAndInside) {
   EXPECT_NEAR(signedDistance(cylinder(), {1.5, 0, 0}), -0.5, kRoundOff);
 }
 
+TEST(Shapes, VesselDistanceInsideOutsideInTheWallAndOverTheRim) {
+  EXPECT_NEAR(signedDistance(mug(), {1.5, 0, 2}), 0.5, kRoundOff);           // inside, from the wall
+  EXPECT_NEAR(signedDistance(mug(), {1, 0, 0.5}), 0.5, kRoundOff);           // inside, from the bottom
+  EXPECT_NEAR(signedDistance(mug(), {1, 0, 5}), std::sqrt(5.0), kRoundOff);  // over the mouth, from the rim
+  EXPECT_NEAR(signedDistance(mug(), {4, 0, 1}), 1.5, kRoundOff);             // beside it
+  EXPECT_NEAR(signedDistance(mug(), {2.1, 0, 1}), -0.1, kRoundOff);          // in the wall
+  EXPECT_NEAR(signedDistance(mug(), {1, 0, -0.2}), -0.05, kRoundOff);        // in the bottom
+  const double corner = std::hypot(0.25, 0.1);  // where they join, from the edge of the room
+  EXPECT_NEAR(signedDistance(mug(), {2.25, 0, -0.1}), -0.15, kRoundOff);
+  EXPECT_LT(0.15, corner);
+}
+
+TEST(Shapes, RoomOfAVesselReachesHalfIntoItsWalls) {
+  EXPECT_NEAR(roomInVessel(mug(), {2.25, 0, 1}), 0, kRoundOff);
+  EXPECT_NEAR(roomInVessel(mug(), {1, 0, -0.125}), 0, kRoundOff);
+  EXPECT_LT(roomInVessel(mug(), {1, 0, 40}), 0);
+}
+
 TEST(Shapes, DistanceHasUnitGradientAwayFromCreases) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-6, 6);
-  for (const ShapeSpec& shape : {box(), sphere(), cylinder(), halfSpace()}) {
+  for (const ShapeSpec& shape : {box(), sphere(), cylinder(), halfSpace(), mug()}) {
     int unit = 0;
     constexpr int kPoints = 200;
     for (int i = 0; i < kPoints; ++i) {
@@ -64,7 +95,7 @@ TEST(Shapes, DistanceHasUnitGradientAwayFromCreases) {
 TEST(Shapes, BoundsTouchTheShape) {
   ShapeSpec tilted = cylinder();
   tilted.axis = {1, 2, 2};
-  for (const ShapeSpec& shape : {box(), sphere(), cylinder(), tilted}) {
+  for (const ShapeSpec& shape : {box(), sphere(), cylinder(), tilted, mug()}) {
     const auto [lower, upper] = bounds(shape);
     std::mt19937 random(2);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -94,6 +125,9 @@ TEST(Shapes, DefectsAreNamed) {
   ShapeSpec point = sphere();
   point.radius = 0;
   EXPECT_NE(defect(point).find("radius"), std::string::npos);
+  ShapeSpec noWall = mug();
+  noWall.wallThickness = 0;
+  EXPECT_NE(defect(noWall).find("wall_thickness"), std::string::npos);
   ShapeSpec noAxis = cylinder();
   noAxis.axis.setZero();
   EXPECT_NE(defect(noAxis).find("axis"), std::string::npos);

@@ -63,7 +63,7 @@ TEST(SolidBoundary, AWallOneCellThickLeaksNowhere) {
   for (int n = 0; n < 20; ++n) {
     const Eigen::Vector3d centre =
         Eigen::Vector3d(0.08, 0.08, 0.08) + grid.dx * n / 20.0 * Eigen::Vector3d(1, 0.37, 0.61);
-    const double thickness = 1.8 * grid.dx;  // a sphere's shell: >= one cell along every diagonal as well
+    const double thickness = grid.dx;
     const SolidObject shell{"shell",
                             [=](const Eigen::Vector3d& x, double) {
                               return std::abs((x - centre).norm() - 0.04) - 0.5 * thickness;
