@@ -3,6 +3,7 @@
 #include "apps/preview/image.h"
 #include "apps/preview/renderer.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_builder.h"
 
@@ -19,6 +20,7 @@ PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& l
                     .bubblePosition = bubbles.position,
                     .bubbleRadius = bubbles.radius,
                     .bubbleType = bubbles.type,
+                    .drops = liquid.drops,
                     .camera = scene.camera};
   if (!scene.solids.empty()) view.solid = coupling::solidDistance(scene);
   return view;
@@ -36,6 +38,10 @@ void writeFrame(const coupling::RunFolder& folder, const coupling::Simulation& s
     if (wanted.bubblesVdb)
       coupling::writeBubblesVdb(folder.bubblesVdb(frame), simulation.bubbles(), stamp,
                                 simulation.liquid().grid.dx);
+    const std::vector<fluid::Drop>& drops = simulation.liquid().drops;
+    if (wanted.dropsVdb)
+      coupling::writeDropsVdb(folder.dropsVdb(frame), drops, stamp, simulation.liquid().grid.dx);
+    if (wanted.dropsPly) coupling::writeDropsPly(folder.dropsPly(frame), drops, stamp);
     if (wanted.bubblesPly) coupling::writeBubblesPly(folder.bubblesPly(frame), simulation.bubbles(), stamp);
   }
   if (wanted.preview) {

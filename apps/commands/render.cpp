@@ -16,6 +16,7 @@
 #include "apps/preview/renderer.h"
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_toml.h"
 
@@ -60,13 +61,25 @@ std::pair<int, int> framesOf(const std::string& text) {
   return *numberPair(text.find('-') == std::string::npos ? text + "-" + text : text, '-');
 }
 
+/// Path without extension of the `kind` file of a frame, from that of its liquid file.
+std::string siblingOf(const std::string& folder, const std::string& kind, const std::string& liquidPath) {
+  std::string name = fs::path(liquidPath).stem().string();  // liquid.0001
+  name.replace(0, name.find('.'), kind);
+  return folder + "/" + kind + "/" + name;
+}
+
 /// Bubbles of a frame from whichever cache the run wrote; none if it wrote neither.
 foam::BubbleStore bubblesOf(const std::string& folder, const std::string& liquidPath) {
-  std::string name = fs::path(liquidPath).stem().string();  // liquid.0001
-  name.replace(0, name.find('.'), "bubbles");
-  const std::string path = folder + "/bubbles/" + name;
+  const std::string path = siblingOf(folder, "bubbles", liquidPath);
   if (fs::exists(path + ".vdb")) return coupling::readBubblesVdb(path + ".vdb").bubbles;
   if (fs::exists(path + ".ply")) return coupling::readBubblesPly(path + ".ply").bubbles;
+  return {};
+}
+
+std::vector<fluid::Drop> dropsOf(const std::string& folder, const std::string& liquidPath) {
+  const std::string path = siblingOf(folder, "drops", liquidPath);
+  if (fs::exists(path + ".ply")) return coupling::readDropsPly(path + ".ply");
+  if (fs::exists(path + ".vdb")) return coupling::readDropsVdb(path + ".vdb");
   return {};
 }
 
@@ -85,8 +98,9 @@ int render(const RenderOptions& options) {
   int done = 0;
   for (std::size_t f = 0; f < cache.frames.size(); ++f) {
     if (cache.frames[f] < first || cache.frames[f] > last) continue;
-    const coupling::LiquidFrame liquid = coupling::readLiquidFrame(cache.paths[f]);
+    coupling::LiquidFrame liquid = coupling::readLiquidFrame(cache.paths[f]);
     const foam::BubbleStore bubbles = bubblesOf(options.folder, cache.paths[f]);
+    liquid.liquid.drops = dropsOf(options.folder, cache.paths[f]);
     if (done++ == 0) coupling::createFolder(target);
     const std::string number = fs::path(cache.paths[f]).stem().extension().string();  // .0001
     const std::string path = target + "/" + options.style + number + ".png";

@@ -7,6 +7,7 @@
 
 #include "coupling/scene.h"
 #include "fluid/dense_field.h"
+#include "fluid/drop.h"
 #include "fluid/grid_spec.h"
 #include "foam/bubble_store.h"
 
@@ -24,7 +25,8 @@ struct PreviewScene {
   std::span<const Eigen::Vector3d> bubblePosition;      ///< [m]
   std::span<const double> bubbleRadius;                 ///< [m]
   std::span<const foam::BubbleClass> bubbleType;
-  coupling::CameraSpec camera;  ///< eye == target: placed to show the whole box
+  std::span<const fluid::Drop> drops;  ///< water in flight, drawn as balls
+  coupling::CameraSpec camera;         ///< eye == target: placed to show the whole box
 };
 
 /// `beauty` shades bubbles as films of water; `classes` paints them by class.

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupling/drop_cache.h"
+
 namespace spume::apps {
 
 struct RayScene::Internals {
@@ -18,7 +20,9 @@ struct RayScene::Internals {
     if (device) rtcReleaseDevice(device);
   }
   void addMesh(const SurfaceMesh& mesh, SurfaceKind kind);
-  void addBubbles(const PreviewScene& view);
+  /// `count` balls; ball(n) gives centre and radius [m].
+  template <typename Ball>
+  void addBalls(SurfaceKind kind, std::size_t count, const Ball& ball);
 };
 
 void RayScene::Internals::addMesh(const SurfaceMesh& mesh, SurfaceKind kind) {
@@ -37,18 +41,19 @@ void RayScene::Internals::addMesh(const SurfaceMesh& mesh, SurfaceKind kind) {
   rtcReleaseGeometry(geometry);
 }
 
-void RayScene::Internals::addBubbles(const PreviewScene& view) {
-  const std::size_t count = view.bubblePosition.size();
+template <typename Ball>
+void RayScene::Internals::addBalls(SurfaceKind kind, std::size_t count, const Ball& ball) {
   if (count == 0) return;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  auto* ball = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                           RTC_FORMAT_FLOAT4, 4 * sizeof(float), count));
-  for (std::size_t b = 0; b < count; ++b) {
-    Eigen::Map<Vec3>(ball + 4 * b) = view.bubblePosition[b].cast<float>();
-    ball[4 * b + 3] = static_cast<float>(view.bubbleRadius[b]);
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                             RTC_FORMAT_FLOAT4, 4 * sizeof(float), count));
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto [centre, radius] = ball(n);
+    Eigen::Map<Vec3>(vertex + 4 * n) = centre.template cast<float>();
+    vertex[4 * n + 3] = static_cast<float>(radius);
   }
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(SurfaceKind::bubble));
+  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(kind));
   rtcReleaseGeometry(geometry);
 }
 
@@ -65,7 +70,12 @@ RayScene::RayScene(const PreviewScene& scene, SurfaceMesh water, SurfaceMesh sol
   rtcSetSceneFlags(internals_->scene, RTC_SCENE_FLAG_ROBUST);
   internals_->addMesh(internals_->water, SurfaceKind::water);
   internals_->addMesh(internals_->solid, SurfaceKind::solid);
-  internals_->addBubbles(scene);
+  internals_->addBalls(SurfaceKind::bubble, scene.bubblePosition.size(), [&](std::size_t b) {
+    return std::pair(scene.bubblePosition[b], scene.bubbleRadius[b]);
+  });
+  internals_->addBalls(SurfaceKind::drop, scene.drops.size(), [&](std::size_t d) {
+    return std::pair(scene.drops[d].position, coupling::radiusOf(scene.drops[d]));
+  });
   rtcCommitScene(internals_->scene);
 }
 
@@ -91,6 +101,11 @@ SurfaceHit RayScene::nearest(const Vec3& origin, const Vec3& direction, float li
   hit.entering = flat.dot(direction) < 0;
   if (hit.kind == SurfaceKind::bubble) {
     hit.bubble = ray.hit.primID;
+    hit.normal = flat.normalized();
+    return hit;
+  }
+  if (hit.kind == SurfaceKind::drop) {
+    hit.kind = SurfaceKind::water;
     hit.normal = flat.normalized();
     return hit;
   }

@@ -7,9 +7,9 @@
 
 namespace spume::apps {
 
-enum class SurfaceKind { none, water, bubble, solid };
+enum class SurfaceKind { none, water, bubble, solid, drop };
 
-/// The nearest surface along a ray.
+/// The nearest surface along a ray; a drop counts as water.
 struct SurfaceHit {
   SurfaceKind kind = SurfaceKind::none;
   float distance = 0;     ///< along the ray [m]
