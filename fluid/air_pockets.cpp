@@ -89,20 +89,27 @@ bool ownsAirOf(const DenseField<float>& phi, const Eigen::Vector3i& owner, const
 
 }  // namespace
 
-void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary) {
+void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+                      std::span<const Eigen::Vector3i> vents) {
   const int components = connected_.label(
       grid.cells, [&](int i, int j, int k) { return phi(i, j, k) >= 0 && boundary.hasOpenFace(i, j, k); },
       [&](int axis, int i, int j, int k) { return boundary.open[axis](i, j, k) > 0; }, label_);
   count_.assign(components, 0);
   forEachMember(grid, label_, [&](std::int32_t n, int, int, int) { ++count_[n]; });
-  findOutside(grid, boundary);
+  findOutside(grid, boundary, vents);
   collect(grid);
   for (AirPocket& pocket : pockets_) measure(grid, phi, boundary, pocket);
 }
 
-void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary) {
+void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary,
+                             std::span<const Eigen::Vector3i> vents) {
   outside_.assign(count_.size(), 0);
   bool sealed = true;
+  for (const Eigen::Vector3i& c : vents) {
+    if (label_(c) < 0) continue;
+    outside_[label_(c)] = 1;
+    sealed = false;
+  }
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3, d = (a + 2) % 3;
     Eigen::Vector3i c, face;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fluid/connected_cells.h"
@@ -32,8 +33,9 @@ struct FilledPocket {
 /// headspace, which counts as open air.
 class AirPockets {
  public:
-  /// Labels and measures them.
-  void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+  /// Labels and measures them. Air that holds one of the cells `vents` is open, too.
+  void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+            std::span<const Eigen::Vector3i> vents = {});
 
   /// Fills the small ones that the last `find` saw in the same phi, which becomes negative there. Returns all
   /// of them in the order of their first cells; those of one cell are marker noise and give no bubble.
@@ -48,7 +50,8 @@ class AirPockets {
   const std::vector<AirPocket>& pockets() const { return pockets_; }
 
  private:
-  void findOutside(const GridSpec& grid, const SolidBoundary& boundary);
+  void findOutside(const GridSpec& grid, const SolidBoundary& boundary,
+                   std::span<const Eigen::Vector3i> vents);
   void collect(const GridSpec& grid);
   void measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
                AirPocket& pocket) const;

@@ -21,6 +21,14 @@ double PocketUnknowns::largestResidual() const {
   return largest;
 }
 
+double PocketUnknowns::largestResidual(double diagonalLimit) const {
+  double largest = 0;
+  for (std::size_t p = 0; p < residual.size(); ++p)
+    largest = std::max(
+        largest, diagonal[p] > 0 ? std::abs(residual[p]) * std::min(1.0, diagonalLimit / diagonal[p]) : 0);
+  return largest;
+}
+
 double PocketUnknowns::precondition() const {
   double product = 0;
   for (std::size_t p = 0; p < residual.size(); ++p)

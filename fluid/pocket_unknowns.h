@@ -37,6 +37,8 @@ class PocketUnknowns {
 
   // The parts of a conjugate-gradient iteration that concern the border; vectors as in ConjugateGradient.
   double largestResidual() const;
+  /// The same, each scaled down to a diagonal of at most `diagonalLimit`.
+  double largestResidual(double diagonalLimit) const;
   /// Residual . preconditioned residual.
   double precondition() const;
   /// direction = residual / diagonal + factor direction.

@@ -207,7 +207,7 @@ double ProjectionSystem::centreAirless(DenseField<double>& field) {
 
 double ProjectionSystem::scaleOfRightHandSide() const {
   const PressureMatrix& matrix = multigrid.finest();
-  return reduceActiveRows(
+  const double cells = reduceActiveRows(
       matrix.rows,
       [&](const ActiveRow& row) {
         double scale = 0;
@@ -218,6 +218,7 @@ double ProjectionSystem::scaleOfRightHandSide() const {
         return scale;
       },
       [](double a, double b) { return std::max(a, b); });
+  return std::max(cells, pockets.largestResidual(kFullDiagonal));
 }
 
 }  // namespace spume::fluid

@@ -10,18 +10,18 @@ enum class Verdict { met, missed, none };
 
 /// One figure of a validation table.
 struct ResultRow {
-  std::string study;       ///< key of the case it belongs to: "L3"
-  std::string title;       ///< "single vortex"
-  std::string resolution;  ///< "128^2, 16 markers a cell"
-  std::string quantity;    ///< "area change"
-  double figure = 0;       ///< ours
-  std::string unit;        ///< of the figure
-  std::string reference;   ///< the published or exact figure, with its unit
-  std::string source;      ///< where that comes from
-  std::string aim;         ///< "<= 0.5 %"; empty: reported only
+  std::string study = {};       ///< key of the case it belongs to: "L3"
+  std::string title = {};       ///< "single vortex"
+  std::string resolution = {};  ///< "128^2, 16 markers a cell"
+  std::string quantity = {};    ///< "area change"
+  double figure = 0;            ///< ours
+  std::string unit = {};        ///< of the figure
+  std::string reference = {};   ///< the published or exact figure, with its unit
+  std::string source = {};      ///< where that comes from
+  std::string aim = {};         ///< "<= 0.5 %"; empty: reported only
   Verdict verdict = Verdict::none;
-  double seconds = 0;  ///< wall time of the case, on the machine of the run
-  std::string note;    ///< settings that differ from the defaults, or why an aim is missed
+  double seconds = 0;     ///< wall time of the case, on the machine of the run
+  std::string note = {};  ///< settings that differ from the defaults, or why an aim is missed
 
   bool operator==(const ResultRow&) const = default;
 };
