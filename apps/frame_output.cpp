@@ -3,6 +3,7 @@
 #include "apps/preview/image.h"
 #include "apps/preview/renderer.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
@@ -33,6 +34,7 @@ PreviewScene previewOf(const coupling::Scene& scene, const fluid::LiquidState& l
                     .bubbleId = bubbles.id,
                     .bubbleAge = bubbles.age,
                     .bubbleShade = {},
+                    .drops = liquid.drops,
                     .camera = scene.camera,
                     .look = scene.look};
   for (const coupling::SolidSpec& solid : scene.solids) {
@@ -55,6 +57,10 @@ void writeFrame(const coupling::RunFolder& folder, const coupling::Simulation& s
     if (wanted.bubblesVdb)
       coupling::writeBubblesVdb(folder.bubblesVdb(frame), simulation.bubbles(), stamp,
                                 simulation.liquid().grid.dx);
+    const std::vector<fluid::Drop>& drops = simulation.liquid().drops;
+    if (wanted.dropsVdb)
+      coupling::writeDropsVdb(folder.dropsVdb(frame), drops, stamp, simulation.liquid().grid.dx);
+    if (wanted.dropsPly) coupling::writeDropsPly(folder.dropsPly(frame), drops, stamp);
     if (wanted.bubblesPly) coupling::writeBubblesPly(folder.bubblesPly(frame), simulation.bubbles(), stamp);
   }
   if (wanted.preview) {

@@ -67,6 +67,7 @@ int parseAndPerform(int argc, char** argv) {
   addInfo(program, action);
   addRender(program, action);
   addMeasure(program, action);
+  addReproduce(program, action);
   if (const std::string problem = verbProblem(program, argc, argv); !problem.empty())
     return complain(std::invalid_argument(problem), kUsage);
   try {

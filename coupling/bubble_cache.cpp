@@ -3,7 +3,10 @@
 #include <openvdb/points/PointAttribute.h>
 #include <openvdb/points/PointConversion.h>
 
+#include <algorithm>
+
 #include "coupling/bubble_record.h"
+#include "coupling/drop_cache.h"
 #include "coupling/vdb_file.h"
 
 namespace spume::coupling {
@@ -11,7 +14,7 @@ namespace {
 
 namespace points = openvdb::points;
 
-constexpr char kGridName[] = "bubbles";
+constexpr char kGridName[] = "bubbles", kDropsName[] = "drops";
 
 /// Adds an attribute whose value for bubble n is value(n).
 template <typename Value, typename Get>
@@ -24,16 +27,27 @@ void addAttribute(points::PointDataGrid& grid, const openvdb::tools::PointIndexG
   points::populateAttribute(grid.tree(), index.tree(), name, wrapper);
 }
 
-points::PointDataGrid::Ptr pointGrid(const foam::BubbleStore& bubbles, double voxel) {
-  const std::size_t count = bubbles.size();
-  std::vector<openvdb::Vec3d> places(count);
-  for (std::size_t n = 0; n < count; ++n) places[n] = openvdb::Vec3d(bubbles.position[n].data());
+/// A grid of points without attributes yet, and the index that adds them.
+struct PointSet {
+  points::PointDataGrid::Ptr grid;
+  openvdb::tools::PointIndexGrid::Ptr index;
+};
+
+PointSet pointsAt(const std::vector<openvdb::Vec3d>& places, double voxel) {
   const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
   const points::PointAttributeVector<openvdb::Vec3d> positions(places);
   const auto index =
       openvdb::tools::createPointIndexGrid<openvdb::tools::PointIndexGrid>(positions, *transform);
-  const auto grid =
-      points::createPointDataGrid<points::NullCodec, points::PointDataGrid>(*index, positions, *transform);
+  return {
+      points::createPointDataGrid<points::NullCodec, points::PointDataGrid>(*index, positions, *transform),
+      index};
+}
+
+points::PointDataGrid::Ptr pointGrid(const foam::BubbleStore& bubbles, double voxel) {
+  const std::size_t count = bubbles.size();
+  std::vector<openvdb::Vec3d> places(count);
+  for (std::size_t n = 0; n < count; ++n) places[n] = openvdb::Vec3d(bubbles.position[n].data());
+  const auto [grid, index] = pointsAt(places, voxel);
   const auto velocity = [&](std::size_t n) {
     return openvdb::Vec3s(openvdb::Vec3d(bubbles.velocity[n].data()));
   };
@@ -52,7 +66,39 @@ points::PointDataGrid::Ptr pointGrid(const foam::BubbleStore& bubbles, double vo
   return grid;
 }
 
+points::PointDataGrid::Ptr pointGrid(const std::vector<fluid::Drop>& drops, double voxel) {
+  std::vector<openvdb::Vec3d> places;
+  for (const fluid::Drop& drop : drops) places.emplace_back(drop.position.data());
+  const auto [grid, index] = pointsAt(places, voxel);
+  const auto add = [&, &grid = grid, &index = index]<typename Value>(const char* name, const auto& get) {
+    addAttribute<Value>(*grid, *index, name, drops.size(), [&](std::size_t n) { return get(drops[n]); });
+  };
+  using fluid::Drop;
+  add.operator()<openvdb::Vec3s>(
+      "v", [](const Drop& d) { return openvdb::Vec3s(openvdb::Vec3d(d.velocity.data())); });
+  add.operator()<float>("pscale", [](const Drop& d) { return static_cast<float>(radiusOf(d)); });
+  add.operator()<float>("vol", [](const Drop& d) { return static_cast<float>(d.volume); });
+  add.operator()<std::int64_t>("id", [](const Drop& d) { return static_cast<std::int64_t>(d.id); });
+  return grid;
+}
+
 using Leaf = points::PointDataTree::LeafNodeType;
+
+void appendDrops(const Leaf& leaf, const openvdb::math::Transform& transform,
+                 std::vector<fluid::Drop>& drops) {
+  const points::AttributeHandle<openvdb::Vec3f> place(leaf.constAttributeArray("P")),
+      velocity(leaf.constAttributeArray("v"));
+  const points::AttributeHandle<float> volume(leaf.constAttributeArray("vol"));
+  const points::AttributeHandle<std::int64_t> id(leaf.constAttributeArray("id"));
+  for (auto at = leaf.beginIndexOn(); at; ++at) {
+    const openvdb::Vec3d world =
+        transform.indexToWorld(openvdb::Vec3d(place.get(*at)) + at.getCoord().asVec3d());
+    const openvdb::Vec3f speed = velocity.get(*at);
+    drops.push_back({Eigen::Map<const Eigen::Vector3d>(world.asPointer()),
+                     Eigen::Map<const Eigen::Vector3f>(speed.asPointer()).cast<double>(), volume.get(*at),
+                     static_cast<std::uint64_t>(id.get(*at))});
+  }
+}
 
 void appendRecords(const Leaf& leaf, const openvdb::math::Transform& transform,
                    std::vector<BubbleRecord>& records) {
@@ -88,6 +134,28 @@ void writeBubblesVdb(const std::string& path, const foam::BubbleStore& bubbles, 
   grid->setName(kGridName);
   stampGrid(*grid, stamp);
   writeVdb(path, {grid});
+}
+
+void writeDropsVdb(const std::string& path, const std::vector<fluid::Drop>& drops, const FrameStamp& stamp,
+                   double voxel) {
+  openvdb::initialize();
+  const auto grid = pointGrid(drops, voxel);
+  grid->setName(kDropsName);
+  stampGrid(*grid, stamp);
+  writeVdb(path, {grid});
+}
+
+std::vector<fluid::Drop> readDropsVdb(const std::string& path) {
+  const auto grid = findGrid<points::PointDataGrid>(readVdb(path), kDropsName);
+  if (!grid) throw SceneError(path + ": holds no points called " + kDropsName);
+  std::vector<fluid::Drop> drops;
+  try {
+    for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf) appendDrops(*leaf, grid->transform(), drops);
+  } catch (const openvdb::Exception& error) {
+    throw SceneError(path + ": lacks an attribute of a drop: " + error.what());
+  }
+  std::sort(drops.begin(), drops.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return drops;
 }
 
 BubbleFrame readBubblesVdb(const std::string& path) {

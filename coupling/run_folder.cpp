@@ -9,7 +9,7 @@
 namespace spume::coupling {
 namespace {
 
-constexpr const char* kFolders[] = {"liquid", "bubbles", "preview", "checkpoint"};
+constexpr const char* kFolders[] = {"liquid", "bubbles", "drops", "preview", "checkpoint"};
 constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv", "probes.csv",
                                   "run.json",  "log.txt",    "scene.toml"};
 
@@ -37,6 +37,8 @@ std::string RunFolder::bubblesVdb(int frame) const {
 std::string RunFolder::bubblesPly(int frame) const {
   return numbered(root_ + "/bubbles/bubbles", frame, ".ply");
 }
+std::string RunFolder::dropsVdb(int frame) const { return numbered(root_ + "/drops/drops", frame, ".vdb"); }
+std::string RunFolder::dropsPly(int frame) const { return numbered(root_ + "/drops/drops", frame, ".ply"); }
 std::string RunFolder::preview(int frame) const {
   return numbered(root_ + "/preview/preview", frame, ".png");
 }

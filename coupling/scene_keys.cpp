@@ -83,6 +83,10 @@ KeyTable liquidTable() {
       .key("volume_control", &FluidParams::volumeControl, "hold every connected body at its booked volume")
       .key("volume_control_time", &FluidParams::volumeControlTime, {0.001, 10, "s"},
            "relaxation time of its error")
+      .key("viscosity", &FluidParams::viscosity, {0, 1e4, "Pa s"}, "mu; 0: none; water 1e-3, honey 10")
+      .key("no_slip", &FluidParams::noSlip, "viscous liquid sticks to solids")
+      .key("surface_tension", &FluidParams::surfaceTension, {0, 10, "N/m"},
+           "sigma; 0: none; water 0.0728; shortens the sub-steps")
       .build();
 }
 
@@ -183,6 +187,8 @@ KeyTable outputTable() {
       .key("liquid", &OutputSpec::liquid, "liquid/liquid.####.vdb")
       .key("bubbles_vdb", &OutputSpec::bubblesVdb, "bubbles/bubbles.####.vdb")
       .key("bubbles_ply", &OutputSpec::bubblesPly, "bubbles/bubbles.####.ply")
+      .key("drops_vdb", &OutputSpec::dropsVdb, "drops/drops.####.vdb")
+      .key("drops_ply", &OutputSpec::dropsPly, "drops/drops.####.ply")
       .key("preview", &OutputSpec::preview, "preview/preview.####.png")
       .key("staggered_velocity", &OutputSpec::staggeredVelocity, "vel on faces instead of cell centres")
       .key("every", &OutputSpec::every, {1, 1000, "frames"}, "frames between cached ones")

@@ -145,12 +145,19 @@ void archive(Archive& a, fluid::MarkerSet& markers) {
 }
 
 template <typename Archive>
+void archive(Archive& a, fluid::Drop& drop) {
+  auto& [position, velocity, volume, id] = drop;
+  archiveAll(a, position, velocity, volume, id);
+}
+
+template <typename Archive>
 void archive(Archive& a, fluid::LiquidState& liquid) {
-  auto& [grid, time, subSteps, phi, velocity, pressureGradient, positive, negative, volume] = liquid;
+  auto& [grid, time, subSteps, phi, velocity, pressureGradient, positive, negative, volume, drops,
+         dropsEver] = liquid;
   auto& [cells, dx, origin] = grid;
-  auto& [target, unassigned] = volume;
+  auto& [target, unassigned, pocketGas] = volume;
   archiveAll(a, cells, dx, origin, time, subSteps, phi, velocity, pressureGradient, positive, negative,
-             target, unassigned);
+             target, unassigned, pocketGas, drops, dropsEver);
 }
 
 template <typename Archive>

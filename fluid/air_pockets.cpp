@@ -7,12 +7,8 @@
 namespace spume::fluid {
 namespace {
 
-bool reachesOutside(const SolidBoundary& boundary, const Eigen::Vector3i& cells, const Eigen::Vector3i& c) {
-  for (int a = 0; a < 3; ++a) {
-    if (c[a] == 0 && boundary.open[a](c) > 0) return true;
-    if (c[a] + 1 == cells[a] && boundary.open[a](c + Eigen::Vector3i::Unit(a)) > 0) return true;
-  }
-  return false;
+bool isSmall(const AirPocket& pocket) {
+  return pocket.cells.size() <= static_cast<std::size_t>(kLargestFilledPocket);
 }
 
 /// Level to give a filled cell: the mean of its liquid neighbours', or one cell deep if all belong to the
@@ -60,76 +56,131 @@ double liquidAround(const GridSpec& grid, const SolidBoundary& boundary,
 /// Fills one pocket; its gas is the volume that turned into liquid.
 void fill(const GridSpec& grid, const SolidBoundary& boundary, const MacVelocity& velocity,
           FilledPocket& pocket, DenseField<float>& phi) {
-  const double before = liquidAround(grid, boundary, pocket.cells, phi);
-  for (const Eigen::Vector3i& c : pocket.cells) {
-    pocket.velocity += cellVelocity(velocity, c) / pocket.pocket.cells;
+  const std::vector<Eigen::Vector3i>& cells = pocket.pocket.cells;
+  const double before = liquidAround(grid, boundary, cells, phi);
+  for (const Eigen::Vector3i& c : cells) {
+    pocket.velocity += cellVelocity(velocity, c) / static_cast<double>(cells.size());
     phi(c) = levelOfNeighbours(grid, phi, c);
   }
-  pocket.pocket.gas = std::max(0.0, liquidAround(grid, boundary, pocket.cells, phi) - before);
+  pocket.pocket.gas = std::max(0.0, liquidAround(grid, boundary, cells, phi) - before);
+}
+
+/// Calls body(component, cell) for every labelled cell of the grid, in order.
+template <typename Body>
+void forEachMember(const GridSpec& grid, const DenseField<std::int32_t>& label, const Body& body) {
+  for (int i = 0; i < grid.cells.x(); ++i)
+    for (int j = 0; j < grid.cells.y(); ++j) {
+      const std::int32_t* row = &label(i, j, 0);
+      for (int k = 0; k < grid.cells.z(); ++k)
+        if (row[k] >= 0) body(row[k], i, j, k);
+    }
+}
+
+/// Air of a liquid cell that the surface cuts belongs to its neighbour highest above the surface.
+bool ownsAirOf(const DenseField<float>& phi, const Eigen::Vector3i& owner, const Eigen::Vector3i& liquid) {
+  Eigen::Vector3i best = liquid;
+  for (int a = 0; a < 3; ++a)
+    for (int side : {-1, 1}) {
+      const Eigen::Vector3i n = liquid + side * Eigen::Vector3i::Unit(a);
+      if (phi.contains(n.x(), n.y(), n.z()) && phi(n) >= 0 && phi(n) > phi(best)) best = n;
+    }
+  return best == owner;
 }
 
 }  // namespace
 
-void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary) {
-  const int count = connected_.label(
+void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+                      std::span<const Eigen::Vector3i> vents) {
+  const int components = connected_.label(
       grid.cells, [&](int i, int j, int k) { return phi(i, j, k) >= 0 && boundary.hasOpenFace(i, j, k); },
       [&](int axis, int i, int j, int k) { return boundary.open[axis](i, j, k) > 0; }, label_);
-  pockets_.assign(count, AirPocket{});
-  outside_.assign(count, 0);
-  forEachMember(grid, [&](std::int32_t n, const Eigen::Vector3i& c) {
-    AirPocket& pocket = pockets_[n];
-    ++pocket.cells;
-    const float wet = liquidFractionOfCell(phi, static_cast<float>(grid.dx), c.x(), c.y(), c.z());
-    pocket.gas += (1 - wet) * boundary.cellFraction(c);
-    pocket.centroid += grid.cellCentre(c.x(), c.y(), c.z());
-    if (reachesOutside(boundary, grid.cells, c)) outside_[n] = 1;
-  });
-  for (AirPocket& pocket : pockets_) {
-    pocket.gas *= grid.cellVolume();
-    pocket.centroid /= pocket.cells;
+  count_.assign(components, 0);
+  forEachMember(grid, label_, [&](std::int32_t n, int, int, int) { ++count_[n]; });
+  findOutside(grid, boundary, vents);
+  collect(grid);
+  for (AirPocket& pocket : pockets_) measure(grid, phi, boundary, pocket);
+}
+
+void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary,
+                             std::span<const Eigen::Vector3i> vents) {
+  outside_.assign(count_.size(), 0);
+  bool sealed = true;
+  for (const Eigen::Vector3i& c : vents) {
+    if (label_(c) < 0) continue;
+    outside_[label_(c)] = 1;
+    sealed = false;
   }
-  dropOpenAir(grid);
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, d = (a + 2) % 3;
+    Eigen::Vector3i c, face;
+    for (const bool high : {false, true})
+      for (c[b] = 0; c[b] < grid.cells[b]; ++c[b])
+        for (c[d] = 0; c[d] < grid.cells[d]; ++c[d]) {
+          c[a] = high ? grid.cells[a] - 1 : 0;
+          face = high ? c + Eigen::Vector3i::Unit(a) : c;
+          if (label_(c) < 0 || !(boundary.open[a](face) > 0)) continue;
+          outside_[label_(c)] = 1;
+          sealed = false;
+        }
+  }
+  if (sealed && !count_.empty())
+    outside_[std::max_element(count_.begin(), count_.end()) - count_.begin()] = 1;
 }
 
-template <typename Body>
-void AirPockets::forEachMember(const GridSpec& grid, const Body& body) {
-  for (int i = 0; i < grid.cells.x(); ++i)
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k)
-        if (label_(i, j, k) >= 0) body(label_(i, j, k), Eigen::Vector3i(i, j, k));
-}
-
-/// Renumbers the pockets without those that reach the outside.
-void AirPockets::dropOpenAir(const GridSpec& grid) {
-  std::vector<std::int32_t> number(pockets_.size(), -1);
-  std::size_t kept = 0;
-  for (std::size_t n = 0; n < pockets_.size(); ++n) {
+/// Makes the pockets from the components that are not outside, and numbers the labels anew.
+void AirPockets::collect(const GridSpec& grid) {
+  pockets_.clear();
+  std::vector<std::int32_t> number(count_.size(), -1);
+  for (std::size_t n = 0; n < count_.size(); ++n) {
     if (outside_[n]) continue;
-    number[n] = static_cast<std::int32_t>(kept);
-    pockets_[kept++] = pockets_[n];
+    number[n] = static_cast<std::int32_t>(pockets_.size());
+    pockets_.emplace_back().cells.reserve(count_[n]);
   }
-  pockets_.resize(kept);
-  forEachMember(grid, [&](std::int32_t n, const Eigen::Vector3i& c) { label_(c) = number[n]; });
+  forEachMember(grid, label_, [&](std::int32_t n, int i, int j, int k) {
+    label_(i, j, k) = number[n];
+    if (number[n] >= 0) pockets_[number[n]].cells.emplace_back(i, j, k);
+  });
+}
+
+void AirPockets::measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+                         AirPocket& pocket) const {
+  const float dx = static_cast<float>(grid.dx);
+  const auto air = [&](const Eigen::Vector3i& c) {
+    return (1 - liquidFractionOfCell(phi, dx, c.x(), c.y(), c.z())) * boundary.cellFraction(c);
+  };
+  for (const Eigen::Vector3i& c : pocket.cells) {
+    pocket.gas += air(c);
+    pocket.centroid += grid.cellCentre(c.x(), c.y(), c.z());
+    for (int a = 0; a < 3; ++a)
+      for (int side : {-1, 1}) {
+        const Eigen::Vector3i n = c + side * Eigen::Vector3i::Unit(a);
+        if (phi.contains(n.x(), n.y(), n.z()) && phi(n) < 0 && ownsAirOf(phi, c, n)) pocket.gas += air(n);
+      }
+  }
+  pocket.gas *= grid.cellVolume();
+  pocket.centroid /= static_cast<double>(pocket.cells.size());
 }
 
 std::vector<FilledPocket> AirPockets::fillSmall(const GridSpec& grid, const SolidBoundary& boundary,
                                                 const MacVelocity& velocity, DenseField<float>& phi) {
   std::vector<FilledPocket> filled;
-  std::vector<std::int32_t> number(pockets_.size(), -1);
-  const bool sealed = std::find(outside_.begin(), outside_.end(), 1) == outside_.end();
-  const auto headspace = std::max_element(pockets_.begin(), pockets_.end(),
-                                          [](const auto& a, const auto& b) { return a.cells < b.cells; });
-  for (auto pocket = pockets_.begin(); pocket != pockets_.end(); ++pocket) {
-    if (pocket->cells > kLargestFilledPocket || (sealed && pocket == headspace)) continue;
-    number[pocket - pockets_.begin()] = static_cast<std::int32_t>(filled.size());
-    filled.push_back({*pocket, Eigen::Vector3d::Zero(), {}});
-  }
-  if (filled.empty()) return filled;
-  forEachMember(grid, [&](std::int32_t n, const Eigen::Vector3i& c) {
-    if (number[n] >= 0) filled[number[n]].cells.push_back(c);
-  });
+  for (const AirPocket& pocket : pockets_)
+    if (isSmall(pocket)) filled.push_back({pocket, Eigen::Vector3d::Zero()});
   for (FilledPocket& pocket : filled) fill(grid, boundary, velocity, pocket, phi);
+  if (!filled.empty()) dropSmall();
   return filled;
+}
+
+void AirPockets::dropSmall() {
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < pockets_.size(); ++n) {
+    const std::int32_t number = isSmall(pockets_[n]) ? -1 : static_cast<std::int32_t>(kept);
+    for (const Eigen::Vector3i& c : pockets_[n].cells) label_(c) = number;
+    if (number < 0) continue;
+    if (kept != n) pockets_[kept] = std::move(pockets_[n]);
+    ++kept;
+  }
+  pockets_.resize(kept);
 }
 
 }  // namespace spume::fluid

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fluid/connected_cells.h"
@@ -17,43 +18,49 @@ inline constexpr int kLargestFilledPocket = 4;
 
 /// A connected set of air cells (phi >= 0) that does not reach an open domain boundary.
 struct AirPocket {
-  int cells = 0;
-  double gas = 0;                                      ///< its air volume [m^3]
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m]
+  std::vector<Eigen::Vector3i> cells;                  ///< in their order
+  double gas = 0;                                      ///< its air volume, cut liquid cells included [m^3]
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< mean of its cell centres [m]
 };
 
 /// A pocket that was filled.
 struct FilledPocket {
   AirPocket pocket;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< mean of its faces [m/s]
-  std::vector<Eigen::Vector3i> cells;
 };
 
-/// The closed air pockets of the grid.
+/// The closed air pockets of the grid. In a domain without any open boundary the largest one is its
+/// headspace, which counts as open air.
 class AirPockets {
  public:
-  /// Labels them. A domain without any open boundary has closed pockets only.
-  void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
+  /// Labels and measures them. Air that holds one of the cells `vents` is open, too.
+  void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+            std::span<const Eigen::Vector3i> vents = {});
 
   /// Fills the small ones that the last `find` saw in the same phi, which becomes negative there. Returns all
-  /// of them in the order of their first cells; those of one cell are marker noise and give no bubble. The
-  /// largest pocket of a domain without open boundary is its headspace and stays whatever its size.
+  /// of them in the order of their first cells; those of one cell are marker noise and give no bubble.
   std::vector<FilledPocket> fillSmall(const GridSpec& grid, const SolidBoundary& boundary,
                                       const MacVelocity& velocity, DenseField<float>& phi);
+
+  /// Counts small ones as open air, without filling them.
+  void dropSmall();
 
   /// Pocket of each cell, -1 in liquid, solid and open air.
   const DenseField<std::int32_t>& label() const { return label_; }
   const std::vector<AirPocket>& pockets() const { return pockets_; }
 
  private:
-  template <typename Body>
-  void forEachMember(const GridSpec& grid, const Body& body);
-  void dropOpenAir(const GridSpec& grid);
+  void findOutside(const GridSpec& grid, const SolidBoundary& boundary,
+                   std::span<const Eigen::Vector3i> vents);
+  void collect(const GridSpec& grid);
+  void measure(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+               AirPocket& pocket) const;
 
   ConnectedCells connected_;
   DenseField<std::int32_t> label_;
   std::vector<AirPocket> pockets_;
-  std::vector<std::uint8_t> outside_;  // per component of the air: reaches an open boundary
+  std::vector<std::uint8_t> outside_;  // per component of the air: reaches an open boundary, or is headspace
+  std::vector<std::ptrdiff_t> count_;  // cells of each component
 };
 
 }  // namespace spume::fluid

@@ -73,21 +73,27 @@ double ConjugateGradient::precondition(Multigrid& multigrid, const DenseField<do
 }
 
 SolveReport ConjugateGradient::solve(Multigrid& multigrid, DenseField<double>& b, DenseField<double>& x,
-                                     double tolerance, int maxIterations) {
+                                     double tolerance, int maxIterations, PocketUnknowns& pockets) {
   const PressureMatrix& matrix = multigrid.finest();
   SolveReport report;
-  report.residual = maxNorm(matrix.rows, b);
+  report.residual = std::max(maxNorm(matrix.rows, b), pockets.largestResidual());
   x.fill(0);
   direction_.fill(0);
   double previous = 0;
   while (report.residual > tolerance && report.iterations < maxIterations) {
     const double norm = report.residual;
-    const double product = norm * precondition(multigrid, b, norm);
-    turn(matrix.rows, norm, multigrid.solution(), previous != 0 ? product / previous : 0, direction_);
+    const double product = norm * precondition(multigrid, b, norm) + pockets.precondition();
+    const double factor = previous != 0 ? product / previous : 0;
+    turn(matrix.rows, norm, multigrid.solution(), factor, direction_);
+    pockets.turn(factor);
     previous = product;
-    const double energy = matrix.multiply(direction_, image_);
+    const double within = matrix.multiply(direction_, image_);
+    const double energy = within + pockets.multiply(direction_, image_);
     if (!(energy > 0)) break;
-    report.residual = advance(matrix.rows, product / energy, direction_, image_, x, b);
+    const double step = product / energy;
+    pockets.advance(step);
+    report.residual =
+        std::max(advance(matrix.rows, step, direction_, image_, x, b), pockets.largestResidual());
     ++report.iterations;
   }
   report.converged = report.residual <= tolerance;

@@ -2,6 +2,7 @@
 
 #include "fluid/dense_field.h"
 #include "fluid/multigrid.h"
+#include "fluid/pocket_unknowns.h"
 
 namespace spume::fluid {
 
@@ -18,9 +19,10 @@ class ConjugateGradient {
   explicit ConjugateGradient(const Eigen::Vector3i& cells);
 
   /// Solves A x = b for the finest matrix of `multigrid` from x = 0 until max |b - A x| <= `tolerance`.
-  /// `b` is used up: it holds the residual afterwards.
+  /// `b` is used up: it holds the residual afterwards. `pockets` borders the matrix with unknowns of its own,
+  /// held to the same tolerance.
   SolveReport solve(Multigrid& multigrid, DenseField<double>& b, DenseField<double>& x, double tolerance,
-                    int maxIterations);
+                    int maxIterations, PocketUnknowns& pockets);
 
  private:
   double precondition(Multigrid& multigrid, const DenseField<double>& residual, double norm) const;

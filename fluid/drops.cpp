@@ -12,6 +12,8 @@ namespace {
 /// Height above the surface at which a negative marker is a drop [cells]: nearer, the grid may still take it
 /// back.
 constexpr float kLaunchHeight = 1;
+/// Longest way without a look at solids and liquid [dx]: half of the thinnest wall.
+constexpr double kLongestWay = 0.5;
 
 /// Position in cell units, kept where psi has values.
 Eigen::Vector3f centred(const GridSpec& grid, const Eigen::Vector3d& world) {
@@ -49,57 +51,74 @@ bool keepInside(const MarkerScene& scene, Drop& drop) {
   return true;
 }
 
+enum class Fate { flies, landed, left };
+
+Fate flyOne(const MarkerScene& scene, const FieldView& phi, const FieldView& psi, double dt, Drop& drop) {
+  const double way = dt * (drop.velocity.norm() + dt * scene.params.gravity.norm());
+  const int pieces = std::max(1, static_cast<int>(std::ceil(way / (kLongestWay * scene.grid.dx))));
+  const double h = dt / pieces;
+  for (int n = 0; n < pieces; ++n) {
+    drop.position += h * drop.velocity + 0.5 * h * h * scene.params.gravity;
+    drop.velocity += h * scene.params.gravity;
+    if (!keepInside(scene, drop)) return Fate::left;
+    slideOff(scene, psi, drop);
+    const Eigen::Vector3f at = scene.grid.toCells(drop.position).cast<float>();
+    if (sampleCentred(phi, at.x(), at.y(), at.z()) < 0) return Fate::landed;
+  }
+  return Fate::flies;
+}
+
 }  // namespace
 
-double Drops::launch(const MarkerScene& scene, const DenseField<float>& phi, const MacVelocity& velocity,
-                     MarkerSet& negative) {
+std::vector<Drop> Drops::launch(const MarkerScene& scene, const DenseField<float>& phi,
+                                const MacVelocity& velocity, MarkerSet& negative) {
   shares_.refresh(scene, phi, MarkerSign::negative, negative);
   const FieldView field(phi);
   const MacView wind(velocity);
   const float perDx = static_cast<float>(1 / scene.grid.dx);
-  double launched = 0;
+  std::vector<Drop> launched;
   for (std::size_t n = 0; n < negative.size(); ++n) {
     const float x = negative.x[n], y = negative.y[n], z = negative.z[n];
     const float height = perDx * sampleCentred(field, x, y, z);
     if (height <= std::max(kLaunchHeight, negative.radius[n])) continue;
     const Velocity3f u = sampleVelocity(wind, x, y, z);
-    drops_.push_back({scene.grid.toWorld({x, y, z}), {u.x, u.y, u.z}, negative.gas[n]});
-    launched += negative.gas[n];
+    launched.push_back({scene.grid.toWorld({x, y, z}), {u.x, u.y, u.z}, negative.gas[n]});
     negative.x[n] = std::numeric_limits<float>::quiet_NaN();
   }
-  sorter_.compact(negative);
+  if (!launched.empty()) sorter_.compact(negative);
   return launched;
 }
 
-void Drops::advance(const MarkerScene& scene, const DenseField<float>& phi, double dt, DropReport& report) {
+DropFlight fly(const MarkerScene& scene, const DenseField<float>& phi, double dt, std::vector<Drop>& drops) {
   const FieldView field(phi), psi(scene.solids.psi);
+  DropFlight flight;
   std::size_t kept = 0;
-  for (Drop& drop : drops_) {
-    drop.position += dt * drop.velocity + 0.5 * dt * dt * scene.params.gravity;
-    drop.velocity += dt * scene.params.gravity;
-    if (!keepInside(scene, drop)) {
-      report.left += drop.volume;
-      continue;
+  for (Drop& drop : drops) {
+    switch (flyOne(scene, field, psi, dt, drop)) {
+      case Fate::flies:
+        drops[kept++] = drop;
+        break;
+      case Fate::landed:
+        flight.landed.push_back(drop);
+        break;
+      case Fate::left:
+        flight.left += drop.volume;
+        break;
     }
-    slideOff(scene, psi, drop);
-    const Eigen::Vector3f at = scene.grid.toCells(drop.position).cast<float>();
-    if (sampleCentred(field, at.x(), at.y(), at.z()) < 0)
-      report.landed.push_back(drop);
-    else
-      drops_[kept++] = drop;
   }
-  drops_.resize(kept);
+  drops.resize(kept);
+  return flight;
 }
 
-double Drops::volume() const {
+double volumeOf(const std::vector<Drop>& drops) {
   double sum = 0;
-  for (const Drop& drop : drops_) sum += drop.volume;
+  for (const Drop& drop : drops) sum += drop.volume;
   return sum;
 }
 
-Eigen::Vector3d Drops::momentum(double density) const {
+Eigen::Vector3d momentumOf(const std::vector<Drop>& drops, double density) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Drop& drop : drops_) sum += density * drop.volume * drop.velocity;
+  for (const Drop& drop : drops) sum += density * drop.volume * drop.velocity;
   return sum;
 }
 

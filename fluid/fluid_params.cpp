@@ -37,6 +37,8 @@ void FluidParams::validate() const {
   require("pressureTolerance", pressureTolerance, 1e-12, 1e-2, "");
   require("pressureIterations", pressureIterations, 1, 10000, "");
   require("volumeControlTime", volumeControlTime, 0.001, 10, "s");
+  require("viscosity", viscosity, 0, 1e4, "Pa s");
+  require("surfaceTension", surfaceTension, 0, 10, "N/m");
 }
 
 }  // namespace spume::fluid

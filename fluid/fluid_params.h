@@ -34,6 +34,10 @@ struct FluidParams {
   /// level set's errors; what stands at any time is this rate times this time.
   double volumeControlTime = 0.01;
 
+  double viscosity = 0;       ///< mu [Pa s], 0 to 1e4; 0: none. Water 1e-3, honey 10
+  bool noSlip = true;         ///< viscous liquid sticks to solids; false: it slides along them freely
+  double surfaceTension = 0;  ///< sigma [N/m], 0 to 10; 0: none. Water 0.0728; shortens the sub-steps
+
   std::uint64_t seed = 1;  ///< of every random number the liquid draws
 
   /// Throws InvalidParameter naming the first field out of range.

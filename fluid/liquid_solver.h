@@ -46,9 +46,13 @@ struct LiquidStepReport {
   double pressureResidual = 0;  ///< worst relative residual
   double divergence = 0;        ///< largest |div u - source| dx in wet cells after projection [m/s]
   double liquidVolume = 0;      ///< of the grid liquid, at the end
-  double targetVolume = 0;      ///< what volume control holds: initial + poured - drained + immersed gas
-  double poured = 0;            ///< through inflows in this step
-  double drained = 0;           ///< out of the domain and through outflows in this step
+  double targetVolume = 0;  ///< what volume control holds: initial + poured - drained - drops + immersed gas
+  double poured = 0;        ///< through inflows in this step
+  double drained = 0;       ///< out of the domain and through outflows in this step, drops included
+  std::size_t drops = 0;    ///< in flight at the end
+  double dropVolume = 0;    ///< in them
+  double launched = 0;      ///< became drops in this step
+  double landed = 0;        ///< came back from drops in this step
   double kineticEnergy = 0, potentialEnergy = 0;  ///< [J]
   std::size_t positiveMarkers = 0, negativeMarkers = 0;
   std::vector<StageTime> stages;
@@ -62,6 +66,8 @@ struct LiquidSetup {
   std::vector<Inflow> inflows;
   std::vector<Outflow> outflows = {};
 };
+
+struct LiquidStages;
 
 /// Particle-level-set Navier-Stokes liquid with a free surface [Enright et al. 2002; Batty et al. 2007].
 class LiquidSolver {
@@ -98,8 +104,7 @@ class LiquidSolver {
   std::vector<CollapsedPocket> takeCollapsedPockets();
 
  private:
-  struct Internals;
-  std::unique_ptr<Internals> internals_;
+  std::unique_ptr<LiquidStages> internals_;
 };
 
 }  // namespace spume::fluid

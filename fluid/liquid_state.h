@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "fluid/dense_field.h"
+#include "fluid/drop.h"
 #include "fluid/grid_spec.h"
 #include "fluid/marker_set.h"
 #include "fluid/volume_ledger.h"
@@ -19,7 +21,9 @@ struct LiquidState {
   MacVelocity velocity;       ///< [m/s], extrapolated into air and solids
   MacField<float> pressureGradient;  ///< of the last projection on faces [Pa/m]; 0 away from the liquid
   MarkerSet positive, negative;
-  VolumeLedger volume;  ///< what each connected body should hold
+  VolumeLedger volume;          ///< what each connected body and each closed pocket should hold
+  std::vector<Drop> drops;      ///< in flight, in the order of their launch
+  std::uint64_t dropsEver = 0;  ///< launched since the start; the next drop's id
 };
 
 }  // namespace spume::fluid

@@ -8,7 +8,8 @@
 
 namespace spume::fluid {
 
-/// Calls body(i, j) for every row (fixed i, j; k runs inside the body) of a window of `size` points, in parallel.
+/// Calls body(i, j) for every row (fixed i, j; k runs inside the body) of a window of `size` points, in
+/// parallel.
 template <typename Body>
 void forEachRow(const Eigen::Vector3i& size, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<int>(0, size.x()), [&](const tbb::blocked_range<int>& range) {

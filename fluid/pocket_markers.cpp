@@ -11,7 +11,7 @@ void collapsePockets(const GridSpec& grid, const std::vector<FilledPocket>& fill
                      std::vector<CollapsedPocket>& collapsed) {
   if (filled.empty()) return;
   for (std::size_t p = 0; p < filled.size(); ++p)
-    for (const Eigen::Vector3i& cell : filled[p].cells) cellMark(cell) = static_cast<std::int32_t>(p);
+    for (const Eigen::Vector3i& cell : filled[p].pocket.cells) cellMark(cell) = static_cast<std::int32_t>(p);
 
   std::vector<double> speed(filled.size(), 0);
   std::vector<int> markers(filled.size(), 0);
@@ -28,11 +28,12 @@ void collapsePockets(const GridSpec& grid, const std::vector<FilledPocket>& fill
   sorter.compact(positive);
 
   for (std::size_t p = 0; p < filled.size(); ++p) {
-    for (const Eigen::Vector3i& cell : filled[p].cells) cellMark(cell) = -1;
+    for (const Eigen::Vector3i& cell : filled[p].pocket.cells) cellMark(cell) = -1;
     const AirPocket& pocket = filled[p].pocket;
-    if (pocket.cells > 1)
-      collapsed.push_back({pocket.centroid, filled[p].velocity, pocket.gas, pocket.cells,
-                           speed[p] / std::max(1, markers[p])});
+    const int cells = static_cast<int>(pocket.cells.size());
+    if (cells > 1)
+      collapsed.push_back(
+          {pocket.centroid, filled[p].velocity, pocket.gas, cells, speed[p] / std::max(1, markers[p])});
   }
 }
 

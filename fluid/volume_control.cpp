@@ -109,6 +109,24 @@ double VolumeControl::bookDrained(const Eigen::Vector3i& cell, double volume) {
   return out;
 }
 
+std::int32_t VolumeControl::lastBodyNear(const Eigen::Vector3d& x) const {
+  const std::int32_t near = largestNear(grid_, lastLabel_, lastBodies_, x, kNearby);
+  return near >= 0 ? near : largest(lastBodies_);
+}
+
+double VolumeControl::withdraw(const Eigen::Vector3d& x, double volume) {
+  const std::int32_t body = lastBodyNear(x);
+  double& target = body >= 0 ? ledger_.target[body] : ledger_.unassigned;
+  const double taken = std::clamp(volume, 0.0, std::max(0.0, target));
+  target -= taken;
+  return taken;
+}
+
+void VolumeControl::deposit(const Eigen::Vector3d& x, double volume) {
+  const std::int32_t body = lastBodyNear(x);
+  (body >= 0 ? ledger_.target[body] : ledger_.unassigned) += volume;
+}
+
 /// Notes which old body each cell's liquid came from, as pairs (new, old) without repeats within a slab.
 void VolumeControl::traceBack(const LiquidBodies& bodies, const MacVelocity& velocity, double dt) {
   const float steps = static_cast<float>(0.5 * dt / grid_.dx);

@@ -20,8 +20,8 @@ struct ImmersedGas;
 /// Holds every connected body at poured + initial - drained + the gas of its immersed bubbles by a source of
 /// divergence [Kim et al. 2007]. Between two sub-steps bodies merge, split, appear and vanish; bodies that
 /// exchange cells form a group, whose targets are summed and dealt out again so that every body of the group
-/// has the same relative error. The sum of all targets changes by what is poured and drained only. Per
-/// sub-step: bookOutflow (before phi is advected) -> ... -> update -> addSource.
+/// has the same relative error. The sum of all targets changes by what is poured, drained and in flight only.
+/// Per sub-step: bookOutflow (before phi is advected) -> withdraw, deposit -> update -> addSource.
 class VolumeControl {
  public:
   VolumeControl(const GridSpec& grid, const FluidParams& params);
@@ -36,9 +36,15 @@ class VolumeControl {
   double bookOutflow(const DenseField<float>& phi, const SolidBoundary& boundary, const MacVelocity& velocity,
                      double dt);
 
-  /// Subtracts liquid [m^3] taken out of a cell from the body that is or was last there or nearby; returns what
-  /// that body could give.
+  /// Subtracts liquid [m^3] taken out of a cell from the body that is or was last there or nearby; returns
+  /// what that body could give.
   double bookDrained(const Eigen::Vector3i& cell, double volume);
+
+  /// Takes `volume` [m^3] for a drop at x [m] from the target of the body nearby, the largest if there is
+  /// none, as far as it reaches; returns what was taken.
+  double withdraw(const Eigen::Vector3d& x, double volume);
+  /// Gives the volume of a drop that landed at x [m] back.
+  void deposit(const Eigen::Vector3d& x, double volume);
 
   /// Moves the targets from the bodies of the last call to `bodies`, adds what was poured, finds each
   /// bubble's body. `velocity` carried the liquid over the dt [s] between the two.
@@ -63,6 +69,7 @@ class VolumeControl {
   void findGroups(const LiquidBodies& bodies);
   void bookGas(const LiquidBodies& bodies, const ImmersedGas& gas);
   void dealTargets(const LiquidBodies& bodies);
+  std::int32_t lastBodyNear(const Eigen::Vector3d& x) const;
   std::int32_t group(std::int32_t node);
   void unite(std::int32_t a, std::int32_t b);
 

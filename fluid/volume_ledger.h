@@ -9,9 +9,10 @@ namespace spume::fluid {
 struct VolumeLedger {
   std::vector<double>
       target;  ///< liquid each body should hold, in the order of LiquidBodies, without bubble gas [m^3]
-  double unassigned = 0;  ///< target of bodies that vanished while no other was left [m^3]
+  double unassigned = 0;          ///< target of bodies that vanished while no other was left [m^3]
+  std::vector<double> pocketGas;  ///< gas each closed pocket should hold, in the order of AirPockets [m^3]
 
-  /// Initial + poured - drained [m^3].
+  /// Initial + poured - drained - drops in flight [m^3].
   double total() const { return std::accumulate(target.begin(), target.end(), unassigned); }
 };
 

@@ -18,6 +18,7 @@
 #include "apps/preview/renderer.h"
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_toml.h"
 
@@ -62,13 +63,25 @@ std::pair<int, int> framesOf(const std::string& text) {
   return *numberPair(text.find('-') == std::string::npos ? text + "-" + text : text, '-');
 }
 
+/// Path without extension of the `kind` file of a frame, from that of its liquid file.
+std::string siblingOf(const std::string& folder, const std::string& kind, const std::string& liquidPath) {
+  std::string name = fs::path(liquidPath).stem().string();  // liquid.0001
+  name.replace(0, name.find('.'), kind);
+  return folder + "/" + kind + "/" + name;
+}
+
 /// Bubbles of a frame from whichever cache the run wrote; none if it wrote neither.
 foam::BubbleStore bubblesOf(const std::string& folder, const std::string& liquidPath) {
-  std::string name = fs::path(liquidPath).stem().string();  // liquid.0001
-  name.replace(0, name.find('.'), "bubbles");
-  const std::string path = folder + "/bubbles/" + name;
+  const std::string path = siblingOf(folder, "bubbles", liquidPath);
   if (fs::exists(path + ".vdb")) return coupling::readBubblesVdb(path + ".vdb").bubbles;
   if (fs::exists(path + ".ply")) return coupling::readBubblesPly(path + ".ply").bubbles;
+  return {};
+}
+
+std::vector<fluid::Drop> dropsOf(const std::string& folder, const std::string& liquidPath) {
+  const std::string path = siblingOf(folder, "drops", liquidPath);
+  if (fs::exists(path + ".ply")) return coupling::readDropsPly(path + ".ply");
+  if (fs::exists(path + ".vdb")) return coupling::readDropsVdb(path + ".vdb");
   return {};
 }
 
@@ -82,7 +95,8 @@ PreviewStyle styleNamed(const std::string& name) {
 /// Draws one cached frame.
 void renderFrame(const coupling::Scene& scene, const std::string& folder, const std::string& liquidPath,
                  const PreviewSettings& settings, const std::string& path) {
-  const coupling::LiquidFrame liquid = coupling::readLiquidFrame(liquidPath);
+  coupling::LiquidFrame liquid = coupling::readLiquidFrame(liquidPath);
+  liquid.liquid.drops = dropsOf(folder, liquidPath);
   const foam::BubbleStore bubbles = bubblesOf(folder, liquidPath);
   const std::vector<double> shade = bubbleShade(settings.style, scene.foam, bubbles);
   PreviewScene view = previewOf(scene, liquid.liquid, bubbles);

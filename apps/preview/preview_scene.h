@@ -8,6 +8,7 @@
 
 #include "coupling/scene.h"
 #include "fluid/dense_field.h"
+#include "fluid/drop.h"
 #include "fluid/grid_spec.h"
 #include "foam/bubble_store.h"
 
@@ -39,6 +40,8 @@ struct PreviewScene {
   std::span<const double> bubbleShade;      ///< 0..1 for the styles contacts and pressure; empty: 0
   coupling::CameraSpec camera;              ///< eye == target: placed to show the whole box
   coupling::LookSpec look;
+  std::span<const fluid::Drop> drops;  ///< water in flight, drawn as balls
+  coupling::CameraSpec camera;         ///< eye == target: placed to show the whole box
 };
 
 /// `beauty` is as light would show it; the others are diagrams of solid bubbles: coloured by class, by the

@@ -5,11 +5,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "coupling/drop_cache.h"
+
 namespace spume::apps {
 namespace {
 
-/// Geometry numbers: water, bubbles, then one per solid.
-constexpr unsigned kWaterGeometry = 0, kBubbleGeometry = 1, kFirstSolid = 2;
+/// Geometry numbers: water, bubbles, drops, then one per solid.
+constexpr unsigned kWaterGeometry = 0, kBubbleGeometry = 1, kDropGeometry = 2, kFirstSolid = 3;
 
 void boundBubble(const RTCBoundsFunctionArguments* args) {
   const auto& cells = *static_cast<const BubbleCells*>(args->geometryUserPtr);
@@ -51,6 +53,7 @@ struct RayScene::Internals {
   RTCScene newScene() const;
   void addMesh(const SurfaceMesh& mesh, unsigned number, bool solid) const;
   void addBubbles(const BubbleCells& cells) const;
+  void addDrops(std::span<const fluid::Drop> drops) const;
   SurfaceHit trace(RTCScene scene, const Vec3& origin, const Vec3& direction, float limit) const;
 };
 
@@ -89,6 +92,20 @@ void RayScene::Internals::addBubbles(const BubbleCells& cells) const {
   rtcReleaseGeometry(geometry);
 }
 
+void RayScene::Internals::addDrops(std::span<const fluid::Drop> drops) const {
+  if (drops.empty()) return;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), drops.size()));
+  for (std::size_t n = 0; n < drops.size(); ++n) {
+    Eigen::Map<Vec3>(vertex + 4 * n) = drops[n].position.cast<float>();
+    vertex[4 * n + 3] = static_cast<float>(coupling::radiusOf(drops[n]));
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(everything, geometry, kDropGeometry);
+  rtcReleaseGeometry(geometry);
+}
+
 RayScene::RayScene(const PreviewScene& scene, const BubbleCells& cells, SurfaceMesh water,
                    std::vector<SurfaceMesh> solids)
     : internals_(std::make_unique<Internals>()) {
@@ -103,6 +120,7 @@ RayScene::RayScene(const PreviewScene& scene, const BubbleCells& cells, SurfaceM
   internals_->solidsOnly = internals_->newScene();
   internals_->addMesh(internals_->water, kWaterGeometry, false);
   internals_->addBubbles(cells);
+  internals_->addDrops(scene.drops);
   for (std::size_t s = 0; s < internals_->solids.size(); ++s)
     internals_->addMesh(internals_->solids[s], kFirstSolid + static_cast<unsigned>(s), true);
   rtcCommitScene(internals_->everything);
@@ -135,12 +153,17 @@ SurfaceHit RayScene::Internals::trace(RTCScene scene, const Vec3& origin, const 
 
   if (ray.hit.geomID == kBubbleGeometry)
     return {SurfaceKind::bubble, static_cast<int>(ray.hit.primID), ray.ray.tfar, Vec3::Zero(), true};
-  const bool isWater = ray.hit.geomID == kWaterGeometry;
+  const bool isDrop = ray.hit.geomID == kDropGeometry;
+  const bool isWater = isDrop || ray.hit.geomID == kWaterGeometry;
   SurfaceHit hit{isWater ? SurfaceKind::water : SurfaceKind::solid,
                  isWater ? -1 : static_cast<int>(ray.hit.geomID - kFirstSolid), ray.ray.tfar, Vec3::Zero(),
                  false};
   const Vec3 flat(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
   hit.entering = flat.dot(direction) < 0;
+  if (isDrop) {
+    hit.normal = flat.normalized();
+    return hit;
+  }
   const SurfaceMesh& mesh = isWater ? water : solids[hit.index];
   const std::size_t v = std::size_t{3} * ray.hit.primID;
   hit.normal = ((1 - ray.hit.u - ray.hit.v) * mesh.normal[v] + ray.hit.u * mesh.normal[v + 1] +

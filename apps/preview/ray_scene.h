@@ -11,7 +11,7 @@ namespace spume::apps {
 
 enum class SurfaceKind { none, water, bubble, solid };
 
-/// The nearest surface along a ray.
+/// The nearest surface along a ray; a drop counts as water.
 struct SurfaceHit {
   SurfaceKind kind = SurfaceKind::none;
   int index = -1;         ///< of the bubble or solid

@@ -6,6 +6,7 @@
 
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "tests/support/temporary_path.h"
 
@@ -98,6 +99,29 @@ TEST(BubbleCache, CutOffPlyIsRefusedWithItsPath) {
     EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
   }
   std::remove(path.c_str());
+}
+
+TEST(DropCache, VdbAndPlyReadBackByIdToFloatPrecision) {
+  constexpr double kFloatError = 6e-8;  // half an ulp, relative
+  std::vector<fluid::Drop> drops;
+  for (std::uint64_t n = 0; n < 100; ++n)
+    drops.push_back({{0.001 * n, 0.16 - 0.0007 * n, 0.05}, {0.1 * n, -3, 1}, 1e-9 * (n + 1), 3 * n});
+  const std::string vdb = fileIn("drops.vdb"), ply = fileIn("drops.ply");
+  writeDropsVdb(vdb, drops, kStamp, kVoxel);
+  writeDropsPly(ply, drops, kStamp);
+  for (const std::vector<fluid::Drop>& read : {readDropsVdb(vdb), readDropsPly(ply)}) {
+    ASSERT_EQ(read.size(), drops.size());
+    for (std::size_t n = 0; n < drops.size(); ++n) {
+      EXPECT_EQ(read[n].id, drops[n].id);
+      EXPECT_LE((read[n].position - drops[n].position).cwiseAbs().maxCoeff(), kFloatError * 0.16);
+      EXPECT_LE((read[n].velocity - drops[n].velocity).cwiseAbs().maxCoeff(), kFloatError * 10);
+      EXPECT_NEAR(read[n].volume, drops[n].volume, kFloatError * drops[n].volume);
+    }
+  }
+  std::filesystem::resize_file(ply, std::filesystem::file_size(ply) - 1);
+  EXPECT_THROW(readDropsPly(ply), SceneError);
+  std::remove(vdb.c_str());
+  std::remove(ply.c_str());
 }
 
 fluid::LiquidState pool() {

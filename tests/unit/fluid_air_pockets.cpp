@@ -36,24 +36,24 @@ TEST(AirPockets, FillsUpToFourCellsAndKeepsTheRest) {
   const double before = liquidVolume(grid, phi, boundary);
   const auto filled = pockets.fillSmall(grid, boundary, velocity, phi);
   ASSERT_EQ(filled.size(), 2u);
-  EXPECT_EQ(filled[0].pocket.cells, 1);
-  EXPECT_EQ(filled[1].pocket.cells, 3);
+  EXPECT_EQ(filled[0].pocket.cells.size(), 1u);
+  EXPECT_EQ(filled[1].pocket.cells.size(), 3u);
   EXPECT_TRUE(filled[1].pocket.centroid.isApprox(
       (grid.cellCentre(6, 2, 6) + grid.cellCentre(6, 2, 7) + grid.cellCentre(7, 2, 7)) / 3));
   EXPECT_TRUE(filled[1].velocity.isApprox(Eigen::Vector3d(0.5, 0, 0)));
   for (const FilledPocket& pocket : filled) {
-    for (const Eigen::Vector3i& c : pocket.cells) EXPECT_LT(phi(c), 0);
+    for (const Eigen::Vector3i& c : pocket.pocket.cells) EXPECT_LT(phi(c), 0);
   }
   EXPECT_NEAR(filled[0].pocket.gas + filled[1].pocket.gas, liquidVolume(grid, phi, boundary) - before, 1e-12);
   EXPECT_GT(phi(11, 3, 3), 0);
   pockets.find(grid, phi, boundary);
   ASSERT_EQ(pockets.pockets().size(), 1u);
-  EXPECT_EQ(pockets.pockets()[0].cells, 5);
+  EXPECT_EQ(pockets.pockets()[0].cells.size(), 5u);
   EXPECT_EQ(pockets.label()(11, 3, 3), 0);
   EXPECT_EQ(pockets.label()(3, 12, 3), -1);
 }
 
-TEST(AirPockets, TheHeadspaceOfASealedBoxIsAPocketThatStays) {
+TEST(AirPockets, TheHeadspaceOfASealedBoxIsOpenAirThatStays) {
   const GridSpec grid = boxGrid(8);
   const SolidBoundary boundary = buildSolidBoundary(grid, sealed(), {}, 0);
   DenseField<float> phi(grid.cells, static_cast<float>(-grid.dx));
@@ -61,7 +61,23 @@ TEST(AirPockets, TheHeadspaceOfASealedBoxIsAPocketThatStays) {
   AirPockets pockets;
   pockets.find(grid, phi, boundary);
   EXPECT_TRUE(pockets.fillSmall(grid, boundary, MacVelocity(grid.cells), phi).empty());
-  EXPECT_EQ(pockets.pockets().size(), 1u);
+  EXPECT_TRUE(pockets.pockets().empty());
+}
+
+/// A ball of air in liquid, its centre anywhere in a cell: its gas counts the cut cells on both sides.
+TEST(AirPockets, MeasuresTheGasOfABallWhateverItsPlace) {
+  const GridSpec grid = boxGrid(32);
+  const SolidBoundary boundary = buildSolidBoundary(grid, DomainWalls{}, {}, 0);
+  const double radius = 0.02, ball = 4.18879020 * radius * radius * radius;
+  for (const double shift : {0.0, 0.0013, 0.0024, 0.0037}) {
+    const auto phi = sampleCells(grid, [&](const Eigen::Vector3d& x) {
+      return std::max(x.y() - 0.12, radius - (x - Eigen::Vector3d(0.08 + shift, 0.06, 0.08 - shift)).norm());
+    });
+    AirPockets pockets;
+    pockets.find(grid, phi, boundary);
+    ASSERT_EQ(pockets.pockets().size(), 1u);
+    EXPECT_NEAR(pockets.pockets()[0].gas / ball, 1, 0.5 / 16);  // planes in cells: (dx/R)^2/2 at R = 4 dx
+  }
 }
 
 TEST(LiquidBodies, DropsAndPoolAreSeparateWithTheirVolumes) {

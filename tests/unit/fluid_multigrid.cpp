@@ -90,7 +90,8 @@ TEST(ConjugateGradient, NeedsAtMost20IterationsAt32And64) {
     matrix.finish();
     multigrid.coarsen();
     ConjugateGradient solver(cells);
-    const SolveReport report = solver.solve(multigrid, b, x, 1e-6, 100);
+    PocketUnknowns none;
+    const SolveReport report = solver.solve(multigrid, b, x, 1e-6, 100, none);
     EXPECT_TRUE(report.converged);
     EXPECT_LE(report.iterations, 20) << n;
   }

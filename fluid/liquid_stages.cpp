@@ -1,0 +1,259 @@
+#include "fluid/liquid_stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include "fluid/errors.h"
+#include "fluid/liquid_measures.h"
+#include "fluid/open_boundary.h"
+#include "fluid/pocket_markers.h"
+
+namespace spume::fluid {
+namespace {
+
+/// The velocity must reach beyond the fastest sub-step and the stencil of its interpolation [cells].
+constexpr int kStencilReach = 3;
+
+/// More sub-steps than this in one step mean that the velocity has run away.
+constexpr int kMaxSubSteps = 2000;
+
+/// Steps that fill an interval up to round-off must not be given one more.
+constexpr double kRoundOff = 1e-9;
+
+}  // namespace
+
+LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
+    : params(std::move(p)),
+      setup(std::move(s)),
+      solids(buildSolidBoundary(setup.grid, setup.walls, setup.solids, 0)),
+      inflows(setup.grid, setup.inflows, params.seed),
+      outflows(setup.grid, setup.outflows),
+      levelSetAdvection(setup.grid),
+      reinitializer(setup.grid),
+      velocityAdvector(setup.grid),
+      extrapolator(setup.grid),
+      sorter(setup.grid),
+      seeder(setup.grid),
+      escape(setup.grid),
+      drops(setup.grid),
+      pocketBooks(setup.grid, params),
+      volumeControl(setup.grid, params),
+      viscosity(setup.grid, params),
+      projection(setup.grid, params),
+      source(setup.grid.cells),
+      fraction(setup.grid.cells),
+      cellMark(setup.grid.cells, -1) {
+  state.grid = setup.grid;
+}
+
+void LiquidStages::start() {
+  updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time, solids);
+  extension.rebuild(state.grid, solids);
+  maxSpeed = maxFaceSpeed(state.phi, state.velocity);
+}
+
+void LiquidStages::startPockets() {
+  findPockets();
+  pocketBooks.update(pockets, state.velocity, 0);
+  state.volume = volumeControl.ledger();
+  state.volume.pocketGas = pocketBooks.gas();
+}
+
+void LiquidStages::resumeControl() {
+  inflows.stamp(state.time, 0, state.phi, solids);
+  bodies.find(state.grid, state.phi, solids);
+  volumeControl.resume(bodies, state.volume);
+  findPockets();
+  pocketBooks.resume(pockets, state.volume.pocketGas);
+}
+
+/// Time [s] in which the fastest liquid, speeding up under gravity, covers cfl cells, and in which the
+/// shortest capillary wave moves by less than one [Brackbill et al. 1992, for a liquid in air]: explicit
+/// surface tension is stable up to there.
+double LiquidStages::longestStep() const {
+  const double g = params.gravity.norm(), reach = params.cfl * state.grid.dx;
+  const double denominator = maxSpeed + std::sqrt(maxSpeed * maxSpeed + 4 * g * reach);
+  const double carried = denominator > 0 ? 2 * reach / denominator : std::numeric_limits<double>::infinity();
+  if (params.surfaceTension == 0) return carried;
+  const double wave =
+      std::sqrt(params.density * state.grid.cellVolume() / (4 * std::numbers::pi * params.surfaceTension));
+  return std::min(carried, wave);
+}
+
+int LiquidStages::subStepsFor(double dt) const {
+  // n sub-steps of h = dt/n, each with (speed + g h) h <= cfl dx: gravity acts within a sub-step only, the
+  // next one counts again.
+  // A solid must not pass a cell in one sub-step: what it uncovers is filled from the cells beside it.
+  const double swept = fastestSolid(state.grid, setup.solids, solids, state.time + dt) * dt / state.grid.dx;
+  const double steps = std::ceil(std::max(dt / longestStep(), swept) - kRoundOff);
+  if (!(steps <= kMaxSubSteps)) {
+    std::ostringstream message;
+    message << "liquid: the speed " << maxSpeed << " m/s at t = " << state.time << " s would need " << steps
+            << " sub-steps in dt = " << dt << " s (limit " << kMaxSubSteps << ")";
+    throw NumericalFailure(message.str());
+  }
+  return std::max(1, static_cast<int>(steps));
+}
+
+void LiquidStages::moveSolids(double dt) {
+  const bool moving =
+      std::any_of(setup.solids.begin(), setup.solids.end(), [](const auto& s) { return s.moves; });
+  if (!moving) return;
+  updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time + dt, solids);
+  extension.rebuild(state.grid, solids);
+}
+
+void LiquidStages::transport(double dt, LiquidStepReport& report) {
+  report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
+  levelSetAdvection.advance(params.levelSetTransport, state.velocity, dt, state.phi);
+  admitAir(state.grid, solids, state.velocity, dt, state.phi);
+  advectMarkers(markerScene(), state.velocity, dt, state.positive);
+  advectMarkers(markerScene(), state.velocity, dt, state.negative);
+  report.drained += outflows.empty(state.time + dt, solids, state.phi, state.negative, volumeControl);
+  extension.apply(state.phi);
+  sorter.compact(state.positive);
+  sorter.compact(state.negative);
+}
+
+void LiquidStages::correctSurface() {
+  correction.apply(static_cast<float>(state.grid.dx), state.positive, state.negative, state.phi);
+  extension.apply(state.phi);
+}
+
+void LiquidStages::loseMarkers(double dt) {
+  const MarkerScene scene = markerScene();
+  escape.refreshGas(scene, state.phi, state.positive);
+  escape.refreshSpeed(scene, state.phi, state.velocity, dt, state.positive);
+  escape.releaseEscaped(scene, state.phi, state.velocity, state.positive, escaped);
+}
+
+/// Drops fly on the new surface; those that land, and markers that fly off, move volume between the bodies
+/// and the air.
+void LiquidStages::moveDrops(double dt, LiquidStepReport& report) {
+  const MarkerScene scene = markerScene();
+  DropFlight flight = fly(scene, state.phi, dt, state.drops);
+  landed = std::move(flight.landed);
+  for (const Drop& drop : landed) volumeControl.deposit(drop.position, drop.volume);
+  for (Drop& drop : drops.launch(scene, state.phi, state.velocity, state.negative)) {
+    drop.volume = volumeControl.withdraw(drop.position, drop.volume);
+    if (!(drop.volume > 0)) continue;
+    report.launched += drop.volume;
+    drop.id = state.dropsEver++;
+    state.drops.push_back(drop);
+  }
+  report.landed += volumeOf(landed);
+  report.drained += flight.left;
+}
+
+void LiquidStages::reseed() {
+  const MarkerScene scene = markerScene();
+  adjustRadii(scene, state.phi, MarkerSign::positive, state.positive);
+  adjustRadii(scene, state.phi, MarkerSign::negative, state.negative);
+  if (state.subSteps % params.reseedInterval != 0) return;
+  seeder.reseed(scene, state.phi, state.subSteps, state.positive, state.negative);
+}
+
+/// The pockets that are too large to be filled.
+void LiquidStages::findPockets() {
+  pockets.find(state.grid, state.phi, solids);
+  pockets.dropSmall();
+}
+
+void LiquidStages::fillPockets() {
+  pockets.find(state.grid, state.phi, solids);
+  const auto filled = pockets.fillSmall(state.grid, solids, state.velocity, state.phi);
+  collapsePockets(state.grid, filled, sorter, cellMark, state.positive, collapsed);
+  pocketsChange = !filled.empty() || !setup.inflows.empty();
+}
+
+void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& report) {
+  const std::vector<PouredVolume>& poured = inflows.stamp(state.time + dt, dt, state.phi, solids);
+  for (const PouredVolume& p : poured) report.poured += p.volume;
+  extension.apply(state.phi);
+  bodies.find(state.grid, state.phi, solids);
+  volumeControl.update(bodies, state.velocity, dt, poured, gas);
+  if (pocketsChange) findPockets();
+  pocketBooks.update(pockets, state.velocity, dt);
+}
+
+void LiquidStages::moveVelocity(double dt) {
+  velocityAdvector.advance(params.velocityAdvection, state.phi, dt, state.velocity);
+  depositMomentum(state.grid, landed, state.velocity);
+  constrainToSolids(solids, state.velocity);
+  inflows.setVelocity(state.velocity);
+}
+
+void LiquidStages::applyViscosity(double dt) { viscosity.apply(state.phi, solids, dt, state.velocity); }
+
+void LiquidStages::project(double dt, LiquidStepReport& report) {
+  source.fill(0);
+  if (params.volumeControl) volumeControl.addSource(bodies, solids, dt, source);
+  inflows.addSource(source);
+  report.drained += outflows.pump(state.time + dt, dt, state.phi, solids, source, volumeControl);
+  const HeldPockets held{pockets.label(), pockets.pockets(), pocketBooks.growth(pockets, dt)};
+  const ProjectionReport solve =
+      projection.project(state.phi, solids, dt, source, state.velocity, state.pressureGradient, &held);
+  report.pressureIterations += solve.iterations;
+  report.pressureResidual = std::max(report.pressureResidual, solve.residual);
+  report.divergence = std::max(report.divergence, solve.divergence);
+}
+
+void LiquidStages::extrapolate() {
+  const int layers = static_cast<int>(std::ceil(params.cfl)) + kStencilReach;
+  extrapolator.apply(state.phi, solids, layers, state.velocity);
+  constrainToSolids(solids, state.velocity);
+}
+
+void LiquidStages::checkFinite(double dt) const {
+  if (std::isfinite(maxSpeed)) return;
+  std::ostringstream message;
+  message << "liquid: the velocity is not finite after the projection at t = " << state.time + dt
+          << " s, dt = " << dt << " s";
+  throw NumericalFailure(message.str());
+}
+
+void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock) {
+  clock.time("solids", [&] { moveSolids(dt); });
+  clock.time("transport", [&] { transport(dt, report); });
+  clock.time("correction", [&] { correctSurface(); });
+  clock.time("reinitialize", [&] { reinitializer.apply(state.phi, &solids), extension.apply(state.phi); });
+  clock.time("escape", [&] { loseMarkers(dt); });
+  clock.time("drops", [&] { moveDrops(dt, report); });
+  clock.time("correction", [&] { correctSurface(); });
+  clock.time("reseed", [&] { reseed(); });
+  clock.time("pockets", [&] { fillPockets(); });
+  clock.time("inflow", [&] { pour(dt, gas, report); });
+  clock.time("advection", [&] { moveVelocity(dt); });
+  if (params.viscosity > 0) clock.time("viscosity", [&] { applyViscosity(dt); });
+  clock.time("pressure", [&] { project(dt, report); });
+  clock.time("extrapolation", [&] { extrapolate(); });
+  report.cfl = std::max(report.cfl, maxSpeed * dt / state.grid.dx);
+  maxSpeed = maxFaceSpeed(state.phi, state.velocity);
+  checkFinite(dt);
+  state.volume = volumeControl.ledger();
+  state.volume.pocketGas = pocketBooks.gas();
+  state.time += dt;
+  ++state.subSteps;
+  ++report.subSteps;
+}
+
+void LiquidStages::measure(LiquidStepReport& report) {
+  computeLiquidFraction(state.phi, solids, static_cast<float>(state.grid.dx), fraction);
+  const LiquidEnergy energy =
+      liquidEnergy(state.grid, fraction, state.velocity, params.density, params.gravity);
+  report.kineticEnergy = energy.kinetic;
+  report.potentialEnergy = energy.potential;
+  report.maxSpeed = maxSpeed;
+  report.liquidVolume = fluid::liquidVolume(state.grid, state.phi, solids);
+  report.targetVolume = volumeControl.targetVolume();
+  report.drops = state.drops.size();
+  report.dropVolume = volumeOf(state.drops);
+  report.positiveMarkers = state.positive.size();
+  report.negativeMarkers = state.negative.size();
+}
+
+}  // namespace spume::fluid

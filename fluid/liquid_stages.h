@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fluid/air_pockets.h"
+#include "fluid/drops.h"
+#include "fluid/extrapolation.h"
+#include "fluid/level_set.h"
+#include "fluid/level_set_advection.h"
+#include "fluid/liquid_bodies.h"
+#include "fluid/liquid_solver.h"
+#include "fluid/marker_correction.h"
+#include "fluid/marker_escape.h"
+#include "fluid/marker_particles.h"
+#include "fluid/pocket_books.h"
+#include "fluid/projection.h"
+#include "fluid/reinitialize.h"
+#include "fluid/velocity_advection.h"
+#include "fluid/viscosity.h"
+#include "fluid/volume_control.h"
+
+namespace spume::fluid {
+
+/// Everything a solver holds, and the stages of its sub-step in the order subStep() calls them.
+struct LiquidStages {
+  LiquidStages(FluidParams p, LiquidSetup s);
+  /// Brings everything derived from the state up to date with it.
+  void start();
+  /// Starts the books of the closed pockets, and completes the ledger of the state.
+  void startPockets();
+  /// Hands the ledger of the state back to volume control, with bodies as the last sub-step saw them.
+  void resumeControl();
+
+  FluidParams params;
+  LiquidSetup setup;
+  LiquidState state, before;
+  SolidBoundary solids;
+  InflowSet inflows;
+  OutflowSet outflows;
+
+  SolidExtension extension;
+  LevelSetAdvection levelSetAdvection;
+  Reinitializer reinitializer;
+  VelocityAdvector velocityAdvector;
+  VelocityExtrapolator extrapolator;
+  MarkerSorter sorter;
+  MarkerSeeder seeder;
+  MarkerCorrection correction;
+  MarkerEscape escape;
+  Drops drops;
+  AirPockets pockets;
+  PocketBooks pocketBooks;
+  LiquidBodies bodies;
+  VolumeControl volumeControl;
+  Viscosity viscosity;
+  Projection projection;
+  DenseField<float> source, fraction;
+  DenseField<std::int32_t> cellMark;
+
+  std::vector<Drop> landed;  // in this sub-step
+  std::vector<EscapedMarker> escaped;
+  std::vector<CollapsedPocket> collapsed;
+  std::size_t escapedBefore = 0, collapsedBefore = 0;
+  double maxSpeed = 0;
+  bool pocketsChange = false;  // after they were found in this sub-step
+
+  MarkerScene markerScene() const { return {state.grid, params, setup.walls, solids}; }
+  double longestStep() const;
+  int subStepsFor(double dt) const;
+
+  void subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
+  void moveSolids(double dt);
+  void transport(double dt, LiquidStepReport& report);
+  void correctSurface();
+  void loseMarkers(double dt);
+  void moveDrops(double dt, LiquidStepReport& report);
+  void reseed();
+  void findPockets();
+  void fillPockets();
+  void pour(double dt, const ImmersedGas& gas, LiquidStepReport& report);
+  void moveVelocity(double dt);
+  void applyViscosity(double dt);
+  void project(double dt, LiquidStepReport& report);
+  void extrapolate();
+  void checkFinite(double dt) const;
+  void measure(LiquidStepReport& report);
+};
+
+}  // namespace spume::fluid
