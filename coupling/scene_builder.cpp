@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "coupling/foam_objects.h"
 #include "coupling/shapes.h"
 #include "coupling/toml_slot.h"
 
@@ -118,17 +119,6 @@ void checkInflow(const Scene& scene, const InflowSpec& inflow, const std::string
         " m behind its outlet inside the domain; move the centre along its direction by at least that");
 }
 
-void checkBubble(const Scene& scene, const foam::NewBubble& bubble, const std::string& object,
-                 const SignedDistance& psi) {
-  if (!insideDomain(scene, bubble.position))
-    throw SceneError(object + ": position " + text(bubble.position) + " lies outside " + domainText(scene));
-  if (2 * bubble.radius > scene.domain.size.minCoeff())
-    throw SceneError(object + ": radius " + exactText(bubble.radius) +
-                     " m: the bubble is larger than the domain");
-  if (psi(bubble.position) <= 0)
-    throw SceneError(object + ": position " + text(bubble.position) + " is inside a solid");
-}
-
 }  // namespace
 
 fluid::GridSpec gridOf(const Scene& scene) {
@@ -168,12 +158,6 @@ SignedDistance solidDistance(const Scene& scene) {
   };
 }
 
-foam::BubbleStore initialBubbles(const Scene& scene) {
-  foam::BubbleStore bubbles;
-  for (const foam::NewBubble& bubble : scene.bubbles) bubbles.add(bubble);
-  return bubbles;
-}
-
 void checkObjects(const Scene& scene) {
   std::set<std::string> names;
   const SignedDistance psi = solidDistance(scene);
@@ -192,8 +176,7 @@ void checkObjects(const Scene& scene) {
     checkName(scene.inflows[i].name, object, names);
     checkInflow(scene, scene.inflows[i], object, psi);
   }
-  for (std::size_t i = 0; i < scene.bubbles.size(); ++i)
-    checkBubble(scene, scene.bubbles[i], label("bubbles", "", i), psi);
+  checkFoamObjects(scene);
 }
 
 }  // namespace spume::coupling

@@ -6,7 +6,6 @@
 #include "coupling/errors.h"
 #include "coupling/scene.h"
 #include "fluid/liquid_solver.h"
-#include "foam/bubble_store.h"
 
 namespace spume::coupling {
 
@@ -26,12 +25,9 @@ SignedDistance initialPhi(const Scene& scene);
 /// Signed distance [m] to the nearest solid object (domain walls not counted), > 0 in free space.
 SignedDistance solidDistance(const Scene& scene);
 
-/// The bubbles a scene starts with, numbered from 0 in the order of the scene.
-foam::BubbleStore initialBubbles(const Scene& scene);
-
 /// Throws SceneError naming the first object that cannot be simulated and the remedy: a degenerate shape, a
 /// name used twice, a body or an inflow outside the domain, an inflow inside a solid or without a cell to
-/// itself, a bubble in a solid.
+/// itself, and what checkFoamObjects refuses.
 void checkObjects(const Scene& scene);
 
 }  // namespace spume::coupling

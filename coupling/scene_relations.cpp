@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "coupling/foam_relations.h"
 #include "coupling/toml_slot.h"
 
 namespace spume::coupling {
@@ -63,7 +64,8 @@ std::optional<Conflict> findConflict(const Scene& scene) {
   if (auto conflict = ordered(entrainment + "median_radius", births.medianRadius, entrainment + "max_radius",
                               births.maxRadius, "m"))
     return conflict;
-  return inflowConflict(scene);
+  if (auto conflict = inflowConflict(scene)) return conflict;
+  return findFoamConflict(scene);
 }
 
 }  // namespace spume::coupling

@@ -98,7 +98,7 @@ class SceneReader {
       const std::string key = dotted(here, row.name);
       if (node) {
         readKey(row, key, item, *node);
-      } else if (row.required) {
+      } else if (row.required && (!row.applies || row.applies(scene_, item))) {
         throw SceneError(document_.place(key) + ": " + key + " is missing; it has no default; expected " +
                          typeName(row.slot(scene_, item)) + ", " +
                          rangeText(row.slot(scene_, item), row.range));
@@ -119,11 +119,27 @@ class SceneReader {
   Scene scene_;
 };
 
+void fillWetness(const Scene& scene, double& wetness) {
+  if (wetness < 0) wetness = scene.foam.wetness;
+}
+
 /// What several modules need is one key in the file.
 void shareCommonValues(Scene& scene) {
   scene.liquid.seed = scene.foam.seed = scene.seed;
   scene.foam.gravity = scene.liquid.gravity;
   scene.foam.density = scene.liquid.density;
+  scene.dissolvedGas.surfaceTension = scene.foam.surfaceTension;
+  for (BubblesSpec& bubbles : scene.bubbles) fillWetness(scene, bubbles.bubble.wetness);
+  for (BubbleSourceSpec& source : scene.bubbleSources) fillWetness(scene, source.wetness);
+}
+
+/// Files of bubbles lie beside the scene; the resolved scene may be read from elsewhere.
+void placeFiles(Scene& scene, const std::string& scenePath) {
+  namespace fs = std::filesystem;
+  for (BubblesSpec& bubbles : scene.bubbles)
+    if (!bubbles.file.empty())
+      bubbles.file =
+          fs::absolute(fs::path(scenePath).parent_path() / bubbles.file).lexically_normal().string();
 }
 
 void checkTogether(const Scene& scene, const SceneDocument& document, const std::string& path) {
@@ -169,6 +185,7 @@ Scene readScene(const std::string& path, const Overrides& overrides) {
   Scene scene = SceneReader(document).read();
   if (!document.root().at_path("scene.name")) scene.name = std::filesystem::path(path).stem().string();
   shareCommonValues(scene);
+  placeFiles(scene, path);
   checkTogether(scene, document, path);
   return scene;
 }
