@@ -75,8 +75,11 @@ void checkIds(const BubbleTable& bubbles, const PlaceOf& placeOf) {
 /// A cache of a run holds float numbers and no line to point at.
 BubbleTable readVdbTable(const std::string& path) {
   foam::BubbleStore bubbles = readBubblesVdb(path).bubbles;
-  BubbleTable table{std::move(bubbles.id), std::move(bubbles.position), std::move(bubbles.radius),
-                    std::move(bubbles.velocity)};
+  BubbleTable table{std::move(bubbles.id),
+                    std::move(bubbles.position),
+                    std::move(bubbles.radius),
+                    std::move(bubbles.velocity),
+                    {}};
   checkBubbles(table, [&](std::size_t row, std::string_view) {
     return path + ": point with id " + std::to_string(table.id[row]);
   });
@@ -97,6 +100,10 @@ void BubbleTable::resize(std::size_t count) {
   position.resize(count, Eigen::Vector3d::Zero());
   radius.resize(count);
   velocity.resize(count, Eigen::Vector3d::Zero());
+}
+
+std::string BubbleTable::placeOf(const std::string& path, std::size_t row) const {
+  return line.empty() ? path + ": bubble " + std::to_string(id[row]) : path + ":" + std::to_string(line[row]);
 }
 
 void checkBubbles(const BubbleTable& bubbles, const PlaceOf& placeOf) {

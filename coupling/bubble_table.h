@@ -17,9 +17,12 @@ struct BubbleTable {
   std::vector<Eigen::Vector3d> position;  ///< finite [m]
   std::vector<double> radius;             ///< finite, > 0 [m]
   std::vector<Eigen::Vector3d> velocity;  ///< finite [m/s]; zero where the file gives none
+  std::vector<std::size_t> line;          ///< of the file, from 1; empty if it has none
 
   std::size_t size() const { return id.size(); }
   void resize(std::size_t count);
+  /// Where bubble `row` of the file `path` stands, for messages.
+  std::string placeOf(const std::string& path, std::size_t row) const;
 };
 
 /// Reads .csv, .ply or .vdb (points as runs cache them), told apart by the ending of the name. Throws

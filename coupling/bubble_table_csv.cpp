@@ -38,6 +38,7 @@ class CsvReader {
     readHeader(line);
     while (nextLine(line)) {
       rowStart_.push_back(lines_.offsetOf(line));
+      table_.line.push_back(lines_.number());
       readRow(line);
     }
     if (!table_.size()) throw SceneError(path_ + ": has a header but no bubbles");

@@ -64,6 +64,13 @@ class KeyTableBuilder {
     row.appliesTo = std::move(words);
     return *this;
   }
+  /// The last key only has a meaning in some scenes.
+  KeyTableBuilder& onlyWhere(std::function<bool(const Scene&)> applies, std::string words) {
+    KeyRow& row = table_.keys.back();
+    row.applies = [applies](const Scene& scene, std::size_t) { return applies(scene); };
+    row.appliesTo = std::move(words);
+    return *this;
+  }
   /// The table is an array, kept in `list`.
   template <typename Item>
   KeyTableBuilder& listed(std::vector<Item> Scene::*list) {
@@ -89,5 +96,22 @@ class KeyTableBuilder {
   Find find_;
   KeyTable table_;
 };
+
+/// A table that fills one part of the scene.
+template <typename Part>
+KeyTableBuilder<Part> partTable(std::string path, std::string meaning, Part Scene::*part) {
+  return {std::move(path), std::move(meaning),
+          [part](Scene& scene, std::size_t) -> Part& { return scene.*part; }};
+}
+
+/// An array of tables, kept in a list of the scene.
+template <typename Item>
+KeyTableBuilder<Item> listTable(std::string path, std::string meaning, std::vector<Item> Scene::*list) {
+  KeyTableBuilder<Item> table(
+      std::move(path), std::move(meaning),
+      [list](Scene& scene, std::size_t item) -> Item& { return (scene.*list)[item]; });
+  table.listed(list);
+  return table;
+}
 
 }  // namespace spume::coupling

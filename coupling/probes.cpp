@@ -66,8 +66,8 @@ struct Probes::Internals {
 
   void readGauge(const ProbeSpec& probe, const VdbLiquidSampler& fields, double dx,
                  std::vector<double>& out) const;
-  double readPressure(const Eigen::Vector3d& x, const fluid::LiquidSolver& liquid) const;
-  double readVolume(const std::vector<Share>& region, const fluid::LiquidSolver& liquid) const;
+  double readPressure(const Eigen::Vector3d& x, const LiquidPart& liquid) const;
+  double readVolume(const std::vector<Share>& region, const LiquidPart& liquid) const;
 };
 
 /// Walks up from the foot; what lies in a solid counts as air.
@@ -94,7 +94,7 @@ void Probes::Internals::readGauge(const ProbeSpec& probe, const VdbLiquidSampler
 
 /// Mean, weighted trilinearly, of what the liquid cells around the point say by their pressure and its
 /// gradient.
-double Probes::Internals::readPressure(const Eigen::Vector3d& x, const fluid::LiquidSolver& liquid) const {
+double Probes::Internals::readPressure(const Eigen::Vector3d& x, const LiquidPart& liquid) const {
   const fluid::LiquidState& state = liquid.state();
   const VdbLiquidSampler fields(state, liquid.solids());
   const TrilinearCell around =
@@ -118,8 +118,7 @@ double Probes::Internals::readPressure(const Eigen::Vector3d& x, const fluid::Li
   return known > 0 && phi[0] < 0 ? sum / known : 0;
 }
 
-double Probes::Internals::readVolume(const std::vector<Share>& region,
-                                     const fluid::LiquidSolver& liquid) const {
+double Probes::Internals::readVolume(const std::vector<Share>& region, const LiquidPart& liquid) const {
   const fluid::LiquidState& state = liquid.state();
   fluid::DenseField<float> fraction(state.grid.cells);
   fluid::computeLiquidFraction(state.phi, liquid.solids(), static_cast<float>(state.grid.dx), fraction);
@@ -166,7 +165,7 @@ Probes::Probes(const Scene& scene) {
 Probes::~Probes() = default;
 Probes::Probes(Probes&&) noexcept = default;
 
-std::vector<double> Probes::read(const fluid::LiquidSolver& liquid) const {
+std::vector<double> Probes::read(const LiquidPart& liquid) const {
   std::vector<double> values;
   const VdbLiquidSampler fields(liquid.state(), liquid.solids());
   for (std::size_t n = 0; n < internals_->probes.size(); ++n) {

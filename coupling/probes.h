@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "coupling/liquid_part.h"
 #include "coupling/scene.h"
 #include "coupling/statistics.h"
-#include "fluid/liquid_solver.h"
 
 namespace spume::coupling {
 
@@ -24,7 +24,7 @@ class Probes {
 
   /// What they read now, one value a column. Pressure is relative to the air: 0 outside the liquid, and just
   /// under the surface and beside walls continued from the nearest cells by their gradients.
-  std::vector<double> read(const fluid::LiquidSolver& liquid) const;
+  std::vector<double> read(const LiquidPart& liquid) const;
 
  private:
   struct Internals;

@@ -73,6 +73,7 @@ JsonObject gasTotals(const GasLedger& gas) {
       .add("born_markers", gas.bornMarkers)
       .add("born_pockets", gas.bornPockets)
       .add("born_sources", gas.bornSources)
+      .add("born_nucleation", gas.bornNucleation)
       .add("grown", gas.grown)
       .add("burst", gas.burst)
       .add("killed", gas.killed)
@@ -117,6 +118,7 @@ void accumulate(RunSummary& summary, const StepReport& step) {
   summary.drained = step.drained;
   summary.stageSeconds["liquid"] += step.secondsLiquid;
   summary.stageSeconds["entrainment"] += step.secondsEntrainment;
+  summary.stageSeconds["supply"] += step.secondsSupply;
   summary.stageSeconds["foam"] += step.secondsFoam;
   for (const auto& stage : step.liquid.stages)
     summary.stageSeconds["liquid: " + stage.stage] += stage.seconds;
@@ -138,6 +140,10 @@ std::vector<std::string> switchedOff(const Scene& scene) {
       {scene.coupling.immersedGas, "immersed gas: bubbles do not raise the surface"},
       {scene.liquid.volumeControl, "volume control: the level set may lose or gain liquid"},
       {scene.foam.bursting, "bursting: bubbles live for ever"},
+      {!scene.stillPool.enabled, "liquid motion: a pool at rest in closed form"},
+      {scene.foam.attractionLaw != foam::AttractionLaw::none,
+       "attraction: floating bubbles drift as they are"},
+      {scene.dissolvedGas.enabled, "dissolved gas: bubbles do not grow"},
       {!scene.inflows.empty(), "inflows: none in the scene"},
       {!scene.solids.empty(), "solids: none but the walls"},
       {scene.output.liquid, "liquid cache"},

@@ -40,6 +40,16 @@ double Animated::rate(double t) const { return rateAt(keys, t); }
 Eigen::Vector3d AnimatedVector::at(double t) const { return valueAt(keys, t); }
 Eigen::Vector3d AnimatedVector::rate(double t) const { return rateAt(keys, t); }
 
+double Animated::integral(double from, double to) const {
+  double sum = 0, time = from;
+  for (const auto& key : keys) {
+    const double next = std::clamp(key.first, time, to);
+    sum += 0.5 * (at(time) + at(next)) * (next - time);
+    time = next;
+  }
+  return sum + keys.back().second * (to - time);
+}
+
 double Animated::largest() const {
   const auto byValue = [](const auto& a, const auto& b) { return a.second < b.second; };
   return std::max_element(keys.begin(), keys.end(), byValue)->second;

@@ -12,6 +12,8 @@
 #include "fluid/fluid_params.h"
 #include "foam/bubble_store.h"
 #include "foam/foam_params.h"
+#include "foam/gas_exchange.h"
+#include "foam/radius_distribution.h"
 
 namespace spume::coupling {
 
@@ -22,7 +24,8 @@ struct Animated {
   Animated(double constant) : keys{{0.0, constant}} {}  // NOLINT: a number is the constant animation
   double at(double t) const;
   double rate(double t) const;  ///< per second, of the stretch that ends at t; 0 beyond the keys
-  double largest() const;       ///< over all times
+  double integral(double from, double to) const;  ///< over time, from <= to
+  double largest() const;                         ///< over all times
   bool operator==(const Animated&) const = default;
 };
 
@@ -79,6 +82,7 @@ struct SolidSpec {
   std::string name;
   ShapeSpec shape;
   MotionSpec motion = {};
+  foam::SolidSurface surface = {};  ///< how bubbles take to it
 };
 
 /// Liquid that is there at the start: a shape, or the inside of a vessel up to a depth.
@@ -87,6 +91,52 @@ struct LiquidBodySpec {
   ShapeSpec shape;
   std::string vessel = {};  ///< name of the solid it fills instead; empty: `shape`
   double depth = 0;         ///< of the liquid above the middle of the vessel's bottom [m]
+};
+
+/// Liquid that rests, in closed form: a flat surface square to gravity, and no liquid solver. Solids and
+/// walls are the scene's.
+struct StillPoolSpec {
+  bool enabled = false;
+  double level = 0;  ///< height of the surface against gravity, along y without it [m]
+};
+
+/// Bubbles the scene starts with: one, or those of a file.
+struct BubblesSpec {
+  std::string file;  ///< .csv, .ply or .vdb; where it is given the bubble does not count
+  foam::NewBubble bubble;
+};
+
+enum class SourceMeasure { number, gas };
+
+/// Blows bubbles into a region.
+struct BubbleSourceSpec {
+  std::string name;
+  ShapeSpec shape;
+  SourceMeasure measure = SourceMeasure::number;
+  Animated rate{100};      ///< in SourceMeasure::number [1/s]
+  Animated gasRate{1e-6};  ///< in SourceMeasure::gas [m^3/s]
+  foam::RadiusDistribution radius;
+  Eigen::Vector3d velocity{0, 0, 0};  ///< of the new bubbles [m/s]
+  double wetness = -1;                ///< lambda of the new bubbles, < 0: as [foam] says
+  bool immersed = true;               ///< blows only where there is liquid
+  double start = 0, stop = 1e9;       ///< on between [s]
+};
+
+/// Sites on solids where bubbles come out of solution, one after the other.
+struct NucleationSpec {
+  std::string name;
+  std::string solid;     ///< name of one, "walls" of the domain, or empty: all
+  double density = 1e4;  ///< of the sites [1/m^2]
+  double waiting = 0.5;  ///< mean time between a bubble's leaving and the next one [s]
+  foam::RadiusDistribution radius{foam::RadiusLaw::uniform, 1e-4, 0, 0, 1e-4, 1e-4};  ///< when it appears
+  double start = 0, stop = 1e9;                                                       ///< active between [s]
+};
+
+/// Removes the bubbles whose centre is inside.
+struct BubbleKillSpec {
+  std::string name;
+  ShapeSpec shape;
+  double start = 0, stop = 1e9;  ///< on between [s]
 };
 
 struct InflowSpec {
@@ -168,6 +218,8 @@ struct Scene {
   fluid::FluidParams liquid;
   foam::Preset preset = foam::Preset::physical;
   foam::FoamParams foam;
+  StillPoolSpec stillPool;
+  foam::DissolvedGasParams dissolvedGas;
   CouplingSpec coupling;
   OutputSpec output;
   CameraSpec camera;
@@ -177,7 +229,10 @@ struct Scene {
   std::vector<OutflowSpec> outflows;
   std::vector<ProbeSpec> probes;
   std::vector<LiquidBodySpec> liquidBodies;
-  std::vector<foam::NewBubble> bubbles;
+  std::vector<BubblesSpec> bubbles;
+  std::vector<BubbleSourceSpec> bubbleSources;
+  std::vector<NucleationSpec> nucleation;
+  std::vector<BubbleKillSpec> bubbleKills;
 
   double dx() const { return domain.size.maxCoeff() / domain.resolution; }
 };

@@ -140,11 +140,15 @@ SignedDistance initialPhi(const Scene& scene) {
   };
 }
 
-SignedDistance solidDistance(const Scene& scene, double t) {
+std::vector<SignedDistance> solidDistances(const Scene& scene, double t) {
   std::vector<SignedDistance> solids;
   for (const SolidSpec& solid : scene.solids)
     solids.push_back(distanceAt(placedDistance(solid.shape, scene.dx()), solid.motion, t));
-  return [solids = std::move(solids)](const Eigen::Vector3d& x) {
+  return solids;
+}
+
+SignedDistance solidDistance(const Scene& scene, double t) {
+  return [solids = solidDistances(scene, t)](const Eigen::Vector3d& x) {
     double psi = std::numeric_limits<double>::infinity();
     for (const SignedDistance& solid : solids) psi = std::min(psi, solid(x));
     return psi;
@@ -159,12 +163,6 @@ SolidVelocity solidVelocity(const Scene& scene, double t) {
   return [motions = std::move(motions), t](int object, const Eigen::Vector3d& x) {
     return object < 0 ? Eigen::Vector3d(0, 0, 0) : velocityAt(motions[object], x, t);
   };
-}
-
-foam::BubbleStore initialBubbles(const Scene& scene) {
-  foam::BubbleStore bubbles;
-  for (const foam::NewBubble& bubble : scene.bubbles) bubbles.add(bubble);
-  return bubbles;
 }
 
 }  // namespace spume::coupling

@@ -7,7 +7,6 @@
 #include "coupling/scene.h"
 #include "coupling/vdb_liquid_sampler.h"
 #include "fluid/liquid_solver.h"
-#include "foam/bubble_store.h"
 
 namespace spume::coupling {
 
@@ -27,6 +26,9 @@ SignedDistance initialPhi(const Scene& scene);
 /// The vessel a liquid body fills; null if it names none.
 const SolidSpec* vesselOf(const Scene& scene, const LiquidBodySpec& body);
 
+/// Signed distances [m] to each solid object at time t [s], > 0 in free space.
+std::vector<SignedDistance> solidDistances(const Scene& scene, double t = 0);
+
 /// Signed distance [m] to the nearest solid object at time t [s] (domain walls not counted), > 0 in free
 /// space.
 SignedDistance solidDistance(const Scene& scene, double t = 0);
@@ -34,12 +36,9 @@ SignedDistance solidDistance(const Scene& scene, double t = 0);
 /// Velocity of the solids at time t for the foam; empty if none moves.
 SolidVelocity solidVelocity(const Scene& scene, double t);
 
-/// The bubbles a scene starts with, numbered from 0 in the order of the scene.
-foam::BubbleStore initialBubbles(const Scene& scene);
-
 /// Throws SceneError naming the first object that cannot be simulated and the remedy: a degenerate shape, a
 /// name used twice, a body or an inflow outside the domain, an inflow inside a solid or without a cell to
-/// itself, a bubble in a solid.
+/// itself, and what checkFoamObjects refuses.
 void checkObjects(const Scene& scene);
 
 }  // namespace spume::coupling

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "coupling/foam_objects.h"
 #include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
@@ -129,17 +130,6 @@ void checkProbe(const Scene& scene, const ProbeSpec& probe, const std::string& o
   }
 }
 
-void checkBubble(const Scene& scene, const foam::NewBubble& bubble, const std::string& object,
-                 const SignedDistance& psi) {
-  if (!insideDomain(scene, bubble.position))
-    throw SceneError(object + ": position " + text(bubble.position) + " lies outside " + domainText(scene));
-  if (2 * bubble.radius > scene.domain.size.minCoeff())
-    throw SceneError(object + ": radius " + exactText(bubble.radius) +
-                     " m: the bubble is larger than the domain");
-  if (psi(bubble.position) <= 0)
-    throw SceneError(object + ": position " + text(bubble.position) + " is inside a solid");
-}
-
 }  // namespace
 
 void checkObjects(const Scene& scene) {
@@ -160,8 +150,7 @@ void checkObjects(const Scene& scene) {
             });
   checkEach("outflow", scene.outflows, checkOutflow);
   checkEach("probe", scene.probes, checkProbe);
-  for (std::size_t i = 0; i < scene.bubbles.size(); ++i)
-    checkBubble(scene, scene.bubbles[i], objectLabel("bubbles", "", i), psi);
+  checkFoamObjects(scene);
 }
 
 }  // namespace spume::coupling

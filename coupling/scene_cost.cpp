@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "coupling/scene_builder.h"
 #include "coupling/scene_lint.h"
@@ -18,6 +19,19 @@ constexpr double kSurfaceCellsFactor = 4;              // area of a pouring surf
 constexpr double kCachedBytesPerWetCell = 11;          // vel, compressed, plus the band of `surface`
 constexpr double kPictureBytesPerPixel = 1.5;          // of a PNG
 constexpr double kPlyBytes = 52, kVdbPointBytes = 60;  // a bubble
+
+/// Bubbles that sources and sites will have made by time t, none of them gone [-].
+double suppliedBubbles(const Scene& scene, double t) {
+  double sum = 0;
+  for (const BubbleSourceSpec& source : scene.bubbleSources) {
+    const double end = std::max(source.start, std::min(source.stop, t));
+    const double middle = 0.5 * (source.radius.least + source.radius.most);
+    sum += source.measure == SourceMeasure::number ? source.rate.integral(source.start, end)
+                                                   : source.gasRate.integral(source.start, end) /
+                                                         (4 * std::numbers::pi / 3 * std::pow(middle, 3));
+  }
+  return sum;
+}
 
 /// Fastest the scene can get [m/s]: a jet, or a fall through the domain.
 double fastest(const Scene& scene) {
@@ -40,9 +54,10 @@ CostEstimate estimateCost(const Scene& scene) {
   const double step = std::clamp(subStep * scene.time.maxSubSteps, scene.time.minDt, scene.time.maxDt);
   cost.stepsPerFrame = static_cast<int>(std::ceil(frame / step));
   const double subSteps = std::max<double>(cost.stepsPerFrame, std::ceil(frame / subStep));
-  const double bubbles = static_cast<double>(scene.bubbles.size()) +
+  const double bubbles = static_cast<double>(scene.bubbles.size()) + suppliedBubbles(scene, end) +
                          (scene.coupling.entrainment.enabled && !scene.inflows.empty() ? kPouredBubbles : 0);
-  cost.secondsPerFrame = subSteps * kSecondsPerCell * static_cast<double>(cost.cells) +
+  const double liquidSteps = scene.stillPool.enabled ? 0 : subSteps;
+  cost.secondsPerFrame = liquidSteps * kSecondsPerCell * static_cast<double>(cost.cells) +
                          cost.stepsPerFrame * kSecondsPerBubble * bubbles;
   const double surfaceCells = kSurfaceCellsFactor * grid.cells.x() * grid.cells.z();
   const double markers = 2 * scene.liquid.markerBand * scene.liquid.markersPerCell * surfaceCells;

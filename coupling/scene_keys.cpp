@@ -1,29 +1,13 @@
 #include "coupling/scene_keys.h"
 
+#include "coupling/foam_keys.h"
 #include "coupling/key_table_builder.h"
 #include "coupling/shape_keys.h"
-#include "foam/presets.h"
 
 namespace spume::coupling {
 namespace {
 
-const KeyRange kVelocity{-100, 100, "m/s"};
 constexpr double kLargestSeed = 9e18;  // TOML integers end at 2^63
-
-template <typename Part>
-KeyTableBuilder<Part> partTable(std::string path, std::string meaning, Part Scene::*part) {
-  return {std::move(path), std::move(meaning),
-          [part](Scene& scene, std::size_t) -> Part& { return scene.*part; }};
-}
-
-template <typename Item>
-KeyTableBuilder<Item> listTable(std::string path, std::string meaning, std::vector<Item> Scene::*list) {
-  KeyTableBuilder<Item> table(
-      std::move(path), std::move(meaning),
-      [list](Scene& scene, std::size_t item) -> Item& { return (scene.*list)[item]; });
-  table.listed(list);
-  return table;
-}
 
 KeyTable sceneTable() {
   return KeyTableBuilder<Scene>("scene", "What is simulated.",
@@ -88,74 +72,6 @@ KeyTable liquidTable() {
       .key("surface_tension", &FluidParams::surfaceTension, {0, 10, "N/m"},
            "sigma; 0: none; water 0.0728; shortens the sub-steps")
       .build();
-}
-
-/// Comes first in its table: choosing a preset fills all other keys, which may then override it.
-KeyRow presetRow() {
-  KeyRow row;
-  row.name = "preset";
-  row.meaning = "where the defaults of this table come from";
-  row.slot = [](Scene& scene, std::size_t) -> Slot {
-    return ChoiceSlot{{"paper", "physical"},
-                      [&scene] { return static_cast<int>(scene.preset); },
-                      [&scene](int index) {
-                        scene.preset = static_cast<foam::Preset>(index);
-                        scene.foam = foam::makePreset(scene.preset);
-                      }};
-  };
-  return row;
-}
-
-KeyTable foamTable() {
-  using foam::FoamParams;
-  KeyTable table =
-      partTable("foam", "The bubbles. The preset fills every key; those given override it.", &Scene::foam)
-          .key("gas_density", &FoamParams::gasDensity, {0, 1000, "kg/m^3"}, "of the gas; air 1.2")
-          .key("liquid_viscosity", &FoamParams::viscosity, {1e-5, 100, "Pa s"}, "for the drag law")
-          .key("gas_viscosity", &FoamParams::gasViscosity, {0, 1, "Pa s"}, "for the damping aloft")
-          .key("surface_tension", &FoamParams::surfaceTension, {0.001, 1, "N/m"}, "sigma")
-          .key("wetness", &FoamParams::wetness, {0, 1, "-"}, "lambda of Eq. 1 at the liquid; 0 dry, 1 wet")
-          .key("wetness_aloft", &FoamParams::wetnessAloft, {0, 1, "-"}, "lambda at wetness_height and above")
-          .key("wetness_height", &FoamParams::wetnessHeight, {1e-6, 1e4, "m"}, "height lambda changes over")
-          .key("spring_stiffness", &FoamParams::springStiffness, {0, 1e7, "N/m"}, "k of Eq. 2")
-          .key("spring_from_surface_tension", &FoamParams::springFromSurfaceTension,
-               "k = 2 pi sigma s instead of spring_stiffness")
-          .key("spring_surface_tension_factor", &FoamParams::springSurfaceTensionFactor, {0.5, 1, "-"},
-               "s there")
-          .key("spring_floor", &FoamParams::springFloor, {0, 1000, "-"}, "smallest k in rho g r_i r_j")
-          .choice("drag_law", &FoamParams::dragLaw, {"coefficient", "contaminated", "clean"},
-                  "Eq. 3 with drag_coefficient, or C_D(d) of bubbles in contaminated or clean water")
-          .key("drag_coefficient", &FoamParams::dragCoefficient, {0, 1e5, "kg/m^3"}, "c of Eq. 3")
-          .choice("buoyancy_law", &FoamParams::buoyancyLaw, {"hydrostatic", "pressure_gradient"},
-                  "Eq. 4, or from the liquid's pressure")
-          .choice("air_drag_law", &FoamParams::airDragLaw, {"coefficient", "stokes"},
-                  "of the air on bubbles aloft: Stokes with gas_viscosity, or air_drag_coefficient")
-          .key("air_drag_coefficient", &FoamParams::airDragCoefficient, {0, 1e3, "kg/s"}, "c_vis of Eq. 10")
-          .key("added_mass", &FoamParams::addedMass, {0, 2, "-"}, "C_M, part of the inertia only")
-          .key("liquid_adhesion", &FoamParams::liquidAdhesion, {0, 100, "N/m"}, "s_lad of Eq. 5")
-          .key("wall_stiffness_factor", &FoamParams::wallStiffnessFactor, {0, 1000, "-"},
-               "wall spring over k")
-          .key("contact_damping", &FoamParams::contactDamping, {0, 5, "-"}, "zeta of Eq. 10, made pairwise")
-          .key("volume_rate", &FoamParams::volumeRate, {0, 1000, "1/s"},
-               "gamma, how fast a cell regains its gas")
-          .key("radius_limit", &FoamParams::radiusLimit, {1.1, 10, "-"},
-               "largest radius over that of the free gas")
-          .key("bursting", &FoamParams::bursting, "bubbles burst; their clock runs above water only")
-          .key("burst_median_life", &FoamParams::burstMedianLife, {1e-3, 1e9, "s"},
-               "at burst_reference_radius")
-          .key("burst_reference_radius", &FoamParams::burstReferenceRadius, {1e-6, 1, "m"},
-               "see burst_median_life")
-          .key("burst_shape", &FoamParams::burstShape, {0.5, 10, "-"}, "Weibull: 2 Rayleigh, 4/3 thin films")
-          .choice("solver", &FoamParams::solver, {"pcg_jacobi", "pcg_ic", "cholmod"},
-                  "of the implicit step: conjugate gradients with diagonal blocks or an incomplete Cholesky "
-                  "factor, "
-                  "or a direct factorisation")
-          .key("solver_tolerance", &FoamParams::solverTolerance, {1e-12, 1e-1, "-"}, "relative residual")
-          .key("solver_iterations", &FoamParams::solverIterations, {1, 1e5, "-"},
-               "limit of the implicit step")
-          .build();
-  table.keys.insert(table.keys.begin(), presetRow());
-  return table;
 }
 
 KeyTable couplingTable() {
@@ -243,6 +159,7 @@ KeyTable solidTable() {
             "turn about rotation_axis through pivot, before the shift; may be animated");
   table.key("rotation_axis", motion(&MotionSpec::rotationAxis), kDirection, "right-handed; any length");
   table.key("pivot", motion(&MotionSpec::pivot), kPlace, "a point of the axis it turns about");
+  addSurfaceKeys(table, [](SolidSpec& s) -> foam::SolidSurface& { return s.surface; });
   return table.build();
 }
 
@@ -301,22 +218,35 @@ KeyTable probeTable() {
   return table.build();
 }
 
-KeyTable bubblesTable() {
-  return listTable("bubbles", "A bubble that is there at the start.", &Scene::bubbles)
-      .key("position", &foam::NewBubble::position, kPlace, "centre")
-      .key("velocity", &foam::NewBubble::velocity, kVelocity, "at the start")
-      .key("radius", &foam::NewBubble::radius, {1e-6, 1, "m"}, "of the free bubble")
-      .required()
-      .build();
+KeyTable bubbleSourceTable() {
+  using enum ShapeKind;
+  auto table = listTable("bubble_source", "Blows bubbles into a region.", &Scene::bubbleSources);
+  table.key("name", &BubbleSourceSpec::name, "for messages");
+  ShapeKeys<BubbleSourceSpec> shape(table, {box, sphere, cylinder, halfSpace});
+  shape.addPrimitives();
+  addSourceKeys(table);
+  return table.build();
+}
+
+KeyTable bubbleKillTable() {
+  using enum ShapeKind;
+  auto table = listTable("bubble_kill", "Removes the bubbles whose centre is inside.", &Scene::bubbleKills);
+  table.key("name", &BubbleKillSpec::name, "for messages");
+  ShapeKeys<BubbleKillSpec> shape(table, {box, sphere, cylinder, halfSpace});
+  shape.addPrimitives();
+  addTimeKeys(table);
+  return table.build();
 }
 
 }  // namespace
 
 const std::vector<KeyTable>& sceneTables() {
   static const std::vector<KeyTable> kTables{
-      sceneTable(),       domainTable(),  timeTable(),   liquidTable(), foamTable(),  couplingTable(),
-      entrainmentTable(), outputTable(),  cameraTable(), lookTable(),   solidTable(), liquidBodyTable(),
-      inflowTable(),      outflowTable(), probeTable(),  bubblesTable()};
+      sceneTable(),        domainTable(),    timeTable(),     liquidTable(),      stillPoolTable(),
+      foamTable(),         wallTable(),      couplingTable(), entrainmentTable(), dissolvedGasTable(),
+      outputTable(),       cameraTable(),    lookTable(),     solidTable(),       liquidBodyTable(),
+      inflowTable(),       outflowTable(),   probeTable(),    bubblesTable(),     nucleationTable(),
+      bubbleSourceTable(), bubbleKillTable()};
   return kTables;
 }
 

@@ -32,6 +32,7 @@ class Linter {
     lintInflows();
     lintProbes();
     lintBubbles();
+    lintSupply();
     lintSteps();
     lintLiquid();
     std::stable_sort(findings_.begin(), findings_.end(),
@@ -128,7 +129,9 @@ class Linter {
   void lintBubbles() {
     const EntrainmentSpec& births = scene_.coupling.entrainment;
     double largest = births.enabled ? births.maxRadius : 0;
-    for (const foam::NewBubble& bubble : scene_.bubbles) largest = std::max(largest, bubble.radius);
+    for (const BubblesSpec& bubbles : scene_.bubbles) largest = std::max(largest, bubbles.bubble.radius);
+    for (const BubbleSourceSpec& source : scene_.bubbleSources)
+      largest = std::max(largest, source.radius.most);
     if (largest > kLargeBubbleCells * dx_)
       add(Severity::warning, "bubbles", "reach a radius of ", largest / dx_,
           " cells: the liquid changes across them, yet is sampled at their centre; use smaller bubbles or a "
@@ -143,6 +146,31 @@ class Linter {
           " m/s even landing drops and soft jets make bubbles");
   }
 
+  void lintSupply() {
+    const double end = scene_.time.frames / scene_.time.fps;
+    for (std::size_t i = 0; i < scene_.bubbleSources.size(); ++i)
+      if (scene_.bubbleSources[i].start >= end)
+        add(Severity::note, labelOf("bubble_source", scene_.bubbleSources[i].name, i), "starts at ",
+            scene_.bubbleSources[i].start, " s, after the last frame");
+    for (std::size_t i = 0; i < scene_.nucleation.size(); ++i) lintNucleation(i);
+    const double saturation = scene_.dissolvedGas.henry * scene_.dissolvedGas.pressure;
+    if (scene_.dissolvedGas.enabled && scene_.dissolvedGas.concentration < saturation)
+      add(Severity::note, "dissolved_gas.concentration", scene_.dissolvedGas.concentration,
+          " mol/m^3 is under the saturation of ", saturation, ": bubbles shrink");
+  }
+
+  /// A bubble that a solid holds and that does not grow blocks its site for ever.
+  void lintNucleation(std::size_t i) {
+    const NucleationSpec& spec = scene_.nucleation[i];
+    double holds = scene_.foam.walls.detachRadius;
+    for (const SolidSpec& solid : scene_.solids)
+      if (solid.name == spec.solid || spec.solid.empty()) holds = std::max(holds, solid.surface.detachRadius);
+    if (!scene_.dissolvedGas.enabled && holds > spec.radius.least)
+      add(Severity::warning, labelOf("nucleation", spec.name, i), "makes bubbles of radius ",
+          spec.radius.least, " m on solids that hold them up to ", holds,
+          " m, and nothing makes them grow: enable dissolved_gas or lower detach_radius");
+  }
+
   void lintSteps() {
     const double frame = 1 / scene_.time.fps;
     if (scene_.time.minDt > frame)
@@ -151,6 +179,7 @@ class Linter {
   }
 
   void lintLiquid() {
+    if (scene_.stillPool.enabled) return lintPool();
     const double share = initialWetShare(scene_);
     if (scene_.liquidBodies.empty() && scene_.inflows.empty())
       add(Severity::warning, "scene", "has no liquid: neither [[liquid_body]] nor [[inflow]]");
@@ -166,6 +195,21 @@ class Linter {
     if (closed && !scene_.inflows.empty())
       add(Severity::warning, "domain.walls",
           "are all closed while liquid is poured in: the air cannot leave");
+  }
+
+  void lintPool() {
+    const Eigen::Vector3d g = scene_.liquid.gravity,
+                          up = g.norm() > 0 ? Eigen::Vector3d(-g.normalized()) : Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d low = scene_.domain.lower, high = low + scene_.domain.size;
+    double bottom = 0, top = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      bottom += std::min(up[axis] * low[axis], up[axis] * high[axis]);
+      top += std::max(up[axis] * low[axis], up[axis] * high[axis]);
+    }
+    if (scene_.stillPool.level < bottom || scene_.stillPool.level > top)
+      add(Severity::note, "still_pool.level", scene_.stillPool.level,
+          " m lies outside the domain, which goes from ", bottom, " to ", top,
+          " m: there is no surface in it");
   }
 
   const Scene& scene_;

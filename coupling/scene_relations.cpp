@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "coupling/foam_relations.h"
 #include "coupling/toml_slot.h"
 
 namespace spume::coupling {
@@ -87,7 +88,8 @@ std::optional<Conflict> findConflict(const Scene& scene) {
     return conflict;
   if (auto conflict = inflowConflict(scene)) return conflict;
   if (auto conflict = outflowConflict(scene)) return conflict;
-  return probeConflict(scene);
+  if (auto conflict = probeConflict(scene)) return conflict;
+  return findFoamConflict(scene);
 }
 
 }  // namespace spume::coupling

@@ -98,7 +98,7 @@ class SceneReader {
       const std::string key = dotted(here, row.name);
       if (node) {
         readKey(row, key, item, *node);
-      } else if (row.required) {
+      } else if (row.required && (!row.applies || row.applies(scene_, item))) {
         throw SceneError(document_.place(key) + ": " + key + " is missing; it has no default; expected " +
                          typeName(row.slot(scene_, item)) + ", " +
                          rangeText(row.slot(scene_, item), row.range));
@@ -119,19 +119,29 @@ class SceneReader {
   Scene scene_;
 };
 
+void fillWetness(const Scene& scene, double& wetness) {
+  if (wetness < 0) wetness = scene.foam.wetness;
+}
+
 /// What several modules need is one key in the file.
 void shareCommonValues(Scene& scene) {
   scene.liquid.seed = scene.foam.seed = scene.seed;
   scene.foam.gravity = scene.liquid.gravity;
   scene.foam.density = scene.liquid.density;
+  scene.dissolvedGas.surfaceTension = scene.foam.surfaceTension;
+  for (BubblesSpec& bubbles : scene.bubbles) fillWetness(scene, bubbles.bubble.wetness);
+  for (BubbleSourceSpec& source : scene.bubbleSources) fillWetness(scene, source.wetness);
 }
 
-/// Files of a scene lie beside it; where the scene is copied to, they must be found too.
-void findFiles(Scene& scene, const std::string& path) {
+/// Files of a scene lie beside it; where the resolved scene is copied to, they must be found too.
+void findFiles(Scene& scene, const std::string& scenePath) {
   namespace fs = std::filesystem;
-  for (SolidSpec& solid : scene.solids)
-    if (!solid.shape.file.empty())
-      solid.shape.file = fs::absolute(fs::path(path).parent_path() / solid.shape.file).lexically_normal();
+  const auto place = [&](std::string& file) {
+    if (!file.empty())
+      file = fs::absolute(fs::path(scenePath).parent_path() / file).lexically_normal().string();
+  };
+  for (SolidSpec& solid : scene.solids) place(solid.shape.file);
+  for (BubblesSpec& bubbles : scene.bubbles) place(bubbles.file);
 }
 
 void checkTogether(const Scene& scene, const SceneDocument& document, const std::string& path) {

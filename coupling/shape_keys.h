@@ -18,6 +18,8 @@ inline bool hasShape(const SolidSpec&) { return true; }
 inline bool hasShape(const LiquidBodySpec& body) { return body.vessel.empty(); }
 
 inline bool hasShape(const OutflowSpec&) { return true; }
+inline bool hasShape(const BubbleSourceSpec&) { return true; }
+inline bool hasShape(const BubbleKillSpec&) { return true; }
 inline bool hasShape(const ProbeSpec& probe) { return probe.kind == ProbeKind::volume; }
 
 /// The keys of `Object::shape`, each only where the kind of the shape uses it.

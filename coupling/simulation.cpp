@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "coupling/foam_objects.h"
+#include "coupling/liquid_part.h"
 #include "coupling/probes.h"
-#include "coupling/scene_builder.h"
 #include "coupling/time_step.h"
-#include "coupling/vdb_liquid_sampler.h"
 #include "fluid/errors.h"
 #include "foam/errors.h"
 #include "foam/forces/buoyancy.h"
@@ -44,19 +44,11 @@ void addStageTimes(const std::vector<foam::FoamStageTime>& spent, std::vector<fo
   }
 }
 
-Event birthEvent(const Birth& birth, std::uint64_t id, double gas, double time) {
-  Event event{Event::Kind::birth, time, id};
-  event.cause = birth.cause;
-  event.position = birth.bubble.position;
-  event.radius = birth.bubble.radius;
-  event.gas = gas;
-  event.from = event.to = birth.bubble.type;
-  return event;
-}
-
 Event foamEvent(const foam::FoamEvent& happened, double time) {
   constexpr Event::Kind kKinds[] = {Event::Kind::burst, Event::Kind::merge, Event::Kind::classChange};
   Event event{kKinds[static_cast<int>(happened.kind)], time, happened.id, happened.other};
+  if (happened.kind != foam::FoamEventKind::classChange)
+    event.cause = happened.unsupported ? EventCause::unsupported : EventCause::age;
   event.position = happened.position;
   event.radius = happened.radius;
   event.gas = happened.gas;
@@ -69,21 +61,24 @@ Event foamEvent(const foam::FoamEvent& happened, double time) {
 }  // namespace
 
 struct Simulation::Internals {
-  Internals(const Scene& s, fluid::LiquidSolver&& solver)
+  Internals(const Scene& s, std::unique_ptr<LiquidPart> part)
       : scene(s),
-        liquid(std::move(solver)),
-        foam(s.foam),
+        liquid(std::move(part)),
+        foam(foamParamsOf(s)),
         entrainment(s.coupling.entrainment, s.dx(), s.seed),
+        supplier(s),
         probes(s) {}
 
   const Scene scene;
-  fluid::LiquidSolver liquid;
+  const std::unique_ptr<LiquidPart> liquid;
   foam::FoamSolver foam;
   Entrainment entrainment;
+  const BubbleSupply supplier;
   const Probes probes;
 
   foam::BubbleStore bubbles;
   Reservoirs reservoirs;
+  SupplyState supply;
   GasLedger gas;
   int frame = 0, steps = 0;
   double time = 0, initialVolume = 0, poured = 0, drained = 0;
@@ -92,6 +87,8 @@ struct Simulation::Internals {
   StepReport attempt(double dt);
   void stepLiquid(double dt, StepReport& report);
   void entrain(double dt, StepReport& report);
+  void reportFirstBubbles(StepReport& report) const;
+  void supplyBubbles(double dt, StepReport& report);
   void stepFoam(double dt, StepReport& report);
   void takeFoamEvents(foam::FoamStepReport& happened, StepReport& report);
   void removeLeavers(StepReport& report);
@@ -99,10 +96,7 @@ struct Simulation::Internals {
 
   double frameEnd() const { return (frame + 1) / scene.time.fps; }
   double nextDt(double remaining) const {
-    return sharedTimeStep(scene.time, liquid.stableDt(scene.time.maxSubSteps), remaining);
-  }
-  VdbLiquidSampler sampler() const {
-    return {liquid.state(), liquid.solids(), solidVelocity(scene, liquid.state().time)};
+    return sharedTimeStep(scene.time, liquid->stableDt(scene.time.maxSubSteps), remaining);
   }
   fluid::ImmersedGas immersedGas() const;
 };
@@ -111,7 +105,7 @@ fluid::ImmersedGas Simulation::Internals::immersedGas() const {
   fluid::ImmersedGas immersed;
   if (!scene.coupling.immersedGas || bubbles.size() == 0) return immersed;
   Eigen::VectorXd phi(bubbles.size());
-  sampler().phi(bubbles.positions(), phi);
+  liquid->sampler()->phi(bubbles.positions(), phi);
   for (std::size_t b = 0; b < bubbles.size(); ++b) {
     const double fraction = foam::immersedFraction(phi[b], bubbles.radius[b]);
     if (fraction <= 0) continue;
@@ -125,33 +119,48 @@ void Simulation::Internals::stepLiquid(double dt, StepReport& report) {
   const Stopwatch watch;
   const fluid::ImmersedGas immersed = immersedGas();
   for (const double volume : immersed.volume) report.immersedGas += volume;
-  report.liquid = liquid.step(dt, immersed);
+  report.liquid = liquid->step(dt, immersed);
   report.secondsLiquid = watch.seconds();
 }
 
 void Simulation::Internals::entrain(double dt, StepReport& report) {
   const Stopwatch watch;
-  const auto escaped = liquid.takeEscaped();
-  const auto pockets = liquid.takeCollapsedPockets();
+  const auto escaped = liquid->takeEscaped();
+  const auto pockets = liquid->takeCollapsedPockets();
   if (scene.coupling.entrainment.enabled) {
     for (const Birth& birth : entrainment.step(escaped, pockets, dt, reservoirs, gas)) {
-      const std::uint64_t id = bubbles.add(birth.bubble);
-      report.events.push_back(birthEvent(birth, id, bubbles.gas.back(), report.time));
-      ++report.births;
+      bubbles.add(birth.bubble);
+      const EventCause cause = birth.cause == BirthCause::marker ? EventCause::marker : EventCause::pocket;
+      report.events.push_back(eventOf(Event::Kind::birth, cause, report.time, bubbles, bubbles.size() - 1));
     }
   }
   report.secondsEntrainment = watch.seconds();
 }
 
+/// The bubbles the scene starts with are born at time 0.
+void Simulation::Internals::reportFirstBubbles(StepReport& report) const {
+  for (std::size_t b = 0; b < bubbles.size(); ++b)
+    report.events.push_back(eventOf(Event::Kind::birth, EventCause::scene, 0, bubbles, b));
+}
+
+void Simulation::Internals::supplyBubbles(double dt, StepReport& report) {
+  const Stopwatch watch;
+  const LiquidChange change{report.liquid.liquidVolume - report.immersedGas, report.liquid.poured,
+                            report.liquid.drained};
+  supplier.step(report.time, dt, *liquid->sampler(), change, bubbles, supply, gas, report.events);
+  report.gasInSolution = supply.dissolved;
+  report.secondsSupply = watch.seconds();
+}
+
 /// The foam may ask for shorter steps than the liquid; it then sub-cycles on the liquid's end-of-step fields.
 void Simulation::Internals::stepFoam(double dt, StepReport& report) {
   const Stopwatch watch;
-  const VdbLiquidSampler fields = sampler();
+  const std::unique_ptr<foam::LiquidSampler> fields = liquid->sampler();
   const double wanted = std::max(foamDt, scene.time.minDt);
   const int subSteps = std::max(1, static_cast<int>(std::ceil(dt / wanted - kRoundOff)));
   double burst = 0;
   for (int n = 0; n < subSteps; ++n) {
-    foam::FoamStepReport now = foam.step(bubbles, fields, dt / subSteps);
+    foam::FoamStepReport now = foam.step(bubbles, *fields, dt / subSteps);
     takeFoamEvents(now, report);
     burst += now.gasBurst;
     now.solverIterations += report.foam.solverIterations;
@@ -168,7 +177,6 @@ void Simulation::Internals::stepFoam(double dt, StepReport& report) {
 void Simulation::Internals::takeFoamEvents(foam::FoamStepReport& happened, StepReport& report) {
   for (const foam::FoamEvent& event : happened.events) {
     report.events.push_back(foamEvent(event, report.time));
-    if (event.kind == foam::FoamEventKind::burst) ++report.bursts;
   }
   happened.events.clear();
 }
@@ -184,13 +192,7 @@ void Simulation::Internals::removeLeavers(StepReport& report) {
     gone[b] = 1;
     any = true;
     gas.left += bubbles.gas[b];
-    Event event{Event::Kind::leave, report.time, bubbles.id[b]};
-    event.position = x;
-    event.radius = r;
-    event.gas = bubbles.gas[b];
-    event.age = bubbles.age[b];
-    event.from = event.to = bubbles.type[b];
-    report.events.push_back(event);
+    report.events.push_back(eventOf(Event::Kind::leave, EventCause::border, report.time, bubbles, b));
   }
   if (any) bubbles.remove(gone);
 }
@@ -205,6 +207,10 @@ void Simulation::Internals::book(double dt, StepReport& report) {
   report.gas = gas;
   report.poured = poured;
   report.drained = drained;
+  for (const Event& event : report.events) {
+    report.births += event.kind == Event::Kind::birth;
+    report.bursts += event.kind == Event::Kind::burst;
+  }
 }
 
 StepReport Simulation::Internals::attempt(double dt) {
@@ -212,32 +218,33 @@ StepReport Simulation::Internals::attempt(double dt) {
   report.step = steps + 1;
   report.dt = dt;
   report.time = time + dt;
+  if (steps == 0) reportFirstBubbles(report);
   stepLiquid(dt, report);
   entrain(dt, report);
+  supplyBubbles(dt, report);
   stepFoam(dt, report);
   removeLeavers(report);
   book(dt, report);
-  report.probes = probes.read(liquid);
+  report.probes = probes.read(*liquid);
   return report;
 }
 
 Simulation::Simulation(const Scene& scene)
-    : internals_(std::make_unique<Internals>(
-          scene, fluid::LiquidSolver(scene.liquid, buildLiquidSetup(scene), initialPhi(scene)))) {
-  for (const foam::NewBubble& bubble : scene.bubbles) {
-    internals_->bubbles.add(bubble);
-    internals_->gas.bornSources += internals_->bubbles.gas.back();
-  }
-  internals_->gas.inBubbles = internals_->gas.bornSources;
-  internals_->initialVolume = internals_->liquid.liquidVolume();
+    : internals_(std::make_unique<Internals>(scene, makeLiquid(scene))) {
+  Internals& in = *internals_;
+  in.bubbles = initialBubbles(scene);
+  for (const double gas : in.bubbles.gas) in.gas.bornSources += gas;
+  in.gas.inBubbles = in.gas.bornSources;
+  in.initialVolume = in.liquid->liquidVolume();
+  in.supply = in.supplier.begin(*in.liquid->sampler(), in.initialVolume);
 }
 
 Simulation::Simulation(const Scene& scene, SimulationState state)
-    : internals_(std::make_unique<Internals>(
-          scene, fluid::LiquidSolver(scene.liquid, buildLiquidSetup(scene), std::move(state.liquid)))) {
+    : internals_(std::make_unique<Internals>(scene, makeLiquid(scene, std::move(state.liquid)))) {
   Internals& in = *internals_;
   in.bubbles = std::move(state.bubbles);
   in.reservoirs = std::move(state.reservoirs);
+  in.supply = std::move(state.supply);
   in.gas = state.gas;
   in.frame = state.frame;
   in.steps = state.step;
@@ -254,6 +261,7 @@ StepReport Simulation::step(double dt) {
   Internals& in = *internals_;
   const foam::BubbleStore bubbles = in.bubbles;
   const Reservoirs reservoirs = in.reservoirs;
+  const SupplyState supply = in.supply;
   const GasLedger gas = in.gas;
   for (int halvings = 0;; ++halvings) {
     try {
@@ -263,9 +271,10 @@ StepReport Simulation::step(double dt) {
     } catch (const fluid::NumericalFailure&) {
       if (halvings == kMaxHalvings) throw;
     } catch (const foam::NumericalFailure&) {
-      in.liquid.rollBack();
+      in.liquid->rollBack();
       in.bubbles = bubbles;
       in.reservoirs = reservoirs;
+      in.supply = supply;
       in.gas = gas;
       if (halvings == kMaxHalvings) throw;
     }
@@ -299,9 +308,10 @@ SimulationState Simulation::state() const {
   state.frame = in.frame;
   state.step = in.steps;
   state.time = in.time;
-  state.liquid = in.liquid.state();
+  state.liquid = in.liquid->state();
   state.bubbles = in.bubbles;
   state.reservoirs = in.reservoirs;
+  state.supply = in.supply;
   state.gas = in.gas;
   state.initialVolume = in.initialVolume;
   state.poured = in.poured;
@@ -313,8 +323,8 @@ SimulationState Simulation::state() const {
 int Simulation::frame() const { return internals_->frame; }
 double Simulation::time() const { return internals_->time; }
 const Scene& Simulation::scene() const { return internals_->scene; }
-const fluid::LiquidState& Simulation::liquid() const { return internals_->liquid.state(); }
-const fluid::SolidBoundary& Simulation::solids() const { return internals_->liquid.solids(); }
+const fluid::LiquidState& Simulation::liquid() const { return internals_->liquid->state(); }
+const fluid::SolidBoundary& Simulation::solids() const { return internals_->liquid->solids(); }
 const foam::BubbleStore& Simulation::bubbles() const { return internals_->bubbles; }
 const foam::FoamTopology& Simulation::topology() const { return internals_->foam.topology(); }
 

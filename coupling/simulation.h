@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "coupling/bubble_supply.h"
 #include "coupling/entrainment.h"
+#include "coupling/event.h"
 #include "coupling/gas_ledger.h"
 #include "coupling/scene.h"
 #include "fluid/liquid_solver.h"
@@ -14,18 +16,6 @@
 #include "foam/foam_solver.h"
 
 namespace spume::coupling {
-
-/// A row of events.csv.
-struct Event {
-  enum class Kind { birth, burst, merge, classChange, kill, leave } kind;
-  double time;  ///< [s]
-  std::uint64_t id;
-  std::uint64_t other = 0;  ///< merge: the bubble that took the gas
-  BirthCause cause = BirthCause::marker;
-  Eigen::Vector3d position{0, 0, 0};
-  double radius = 0, gas = 0, age = 0;
-  foam::BubbleClass from = foam::BubbleClass::liquid, to = foam::BubbleClass::liquid;
-};
 
 /// A row of steps.csv.
 struct StepReport {
@@ -39,7 +29,8 @@ struct StepReport {
   double poured = 0, drained = 0;      ///< totals since the start [m^3]
   double immersedGas = 0;              ///< [m^3]
   std::size_t births = 0, bursts = 0;  ///< in this step
-  double secondsLiquid = 0, secondsEntrainment = 0, secondsFoam = 0;
+  double gasInSolution = 0;            ///< where it is followed, at the pressure of the air [m^3]
+  double secondsLiquid = 0, secondsEntrainment = 0, secondsSupply = 0, secondsFoam = 0;
   std::vector<Event> events;
   std::vector<double> probes;  ///< readings at the end of the step, as `probeColumns` orders them
 };
@@ -59,6 +50,7 @@ struct SimulationState {
   fluid::LiquidState liquid;
   foam::BubbleStore bubbles;
   Reservoirs reservoirs;
+  SupplyState supply;
   GasLedger gas;
   double initialVolume = 0, poured = 0, drained = 0;        ///< [m^3]
   double foamDt = std::numeric_limits<double>::infinity();  ///< longest next step the foam asked for [s]

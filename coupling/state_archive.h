@@ -170,16 +170,36 @@ void archive(Archive& a, foam::BubbleStore& bubbles) {
 
 template <typename Archive>
 void archive(Archive& a, GasLedger& gas) {
-  auto& [bornMarkers, bornPockets, bornSources, grown, burst, killed, left, notEntrained, inBubbles,
-         inReservoirs] = gas;
-  archiveAll(a, bornMarkers, bornPockets, bornSources, grown, burst, killed, left, notEntrained, inBubbles,
-             inReservoirs);
+  auto& [bornMarkers, bornPockets, bornSources, bornNucleation, grown, burst, killed, left, notEntrained,
+         inBubbles, inReservoirs] = gas;
+  archiveAll(a, bornMarkers, bornPockets, bornSources, bornNucleation, grown, burst, killed, left,
+             notEntrained, inBubbles, inReservoirs);
+}
+
+template <typename Archive>
+void archive(Archive& a, SourceProgress& progress) {
+  auto& [births, gas] = progress;
+  archiveAll(a, births, gas);
+}
+
+template <typename Archive>
+void archive(Archive& a, foam::NucleationSite& site) {
+  auto& [position, away, bubble, ready, births, params] = site;
+  archiveAll(a, position, away, bubble, ready, births, params);
+}
+
+template <typename Archive>
+void archive(Archive& a, SupplyState& supply) {
+  auto& [sources, sites, dissolved] = supply;
+  archiveAll(a, sources, sites, dissolved);
 }
 
 template <typename Archive>
 void archive(Archive& a, SimulationState& state) {
-  auto& [frame, step, time, liquid, bubbles, reservoirs, gas, initialVolume, poured, drained, foamDt] = state;
-  archiveAll(a, frame, step, time, liquid, bubbles, reservoirs, gas, initialVolume, poured, drained, foamDt);
+  auto& [frame, step, time, liquid, bubbles, reservoirs, supply, gas, initialVolume, poured, drained,
+         foamDt] = state;
+  archiveAll(a, frame, step, time, liquid, bubbles, reservoirs, supply, gas, initialVolume, poured, drained,
+             foamDt);
 }
 
 }  // namespace spume::coupling

@@ -37,8 +37,9 @@ const char* nameOf(foam::BubbleClass type) {
   constexpr const char* kNames[] = {"liquid", "surface", "air"};
   return kNames[static_cast<int>(type)];
 }
-const char* nameOf(BirthCause cause) {
-  constexpr const char* kNames[] = {"marker", "pocket", "source", "scene"};
+const char* nameOf(EventCause cause) {
+  constexpr const char* kNames[] = {"",    "marker",      "pocket", "source",      "scene", "nucleation",
+                                    "age", "unsupported", "region", "dissolution", "border"};
   return kNames[static_cast<int>(cause)];
 }
 const char* nameOf(Event::Kind kind) {
@@ -132,7 +133,10 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("gas_born_pockets", "m^3", "from collapsed pockets", [](const R& r) { return r.gas.bornPockets; }),
       step("gas_born_sources", "m^3", "from sources and the scene",
            [](const R& r) { return r.gas.bornSources; }),
-      step("gas_grown", "m^3", "out of solution", [](const R& r) { return r.gas.grown; }),
+      step("gas_born_nucleation", "m^3", "out of solution at walls",
+           [](const R& r) { return r.gas.bornNucleation; }),
+      step("gas_grown", "m^3", "out of solution into bubbles, less what they gave back",
+           [](const R& r) { return r.gas.grown; }),
       step("gas_burst", "m^3", "given back to the air", [](const R& r) { return r.gas.burst; }),
       step("gas_killed", "m^3", "removed by the scene", [](const R& r) { return r.gas.killed; }),
       step("gas_left", "m^3", "gone from the domain", [](const R& r) { return r.gas.left; }),
@@ -140,10 +144,14 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
            [](const R& r) { return r.gas.notEntrained; }),
       step("gas_in_bubbles", "m^3", "held at the end", [](const R& r) { return r.gas.inBubbles; }),
       step("gas_in_reservoirs", "m^3", "held at the end", [](const R& r) { return r.gas.inReservoirs; }),
+      step("gas_in_solution", "m^3", "at the pressure of the air, where it is followed",
+           [](const R& r) { return r.gasInSolution; }),
       step("gas_imbalance", "m^3", "what the ledger does not explain",
            [](const R& r) { return r.gas.imbalance(); }),
       step("seconds_liquid", "s", "wall time", [](const R& r) { return r.secondsLiquid; }),
       step("seconds_entrainment", "s", "wall time", [](const R& r) { return r.secondsEntrainment; }),
+      step("seconds_supply", "s", "wall time of sources, nucleation, growth and removal",
+           [](const R& r) { return r.secondsSupply; }),
       step("seconds_foam", "s", "wall time", [](const R& r) { return r.secondsFoam; })};
   return kColumns;
 }
@@ -200,8 +208,13 @@ const std::vector<Column<EventRow>>& columnsOfEvents() {
             [](const R& r) { return nameOf(r.event.kind); }),
       event("id", "-", "of the bubble", [](const R& r) { return r.event.id; }),
       event("other", "-", "merge: the bubble that took the gas", [](const R& r) { return r.event.other; }),
-      event("cause", "-", "birth: marker, pocket, source or scene",
-            [](const R& r) { return nameOf(r.event.cause); }),
+      event(
+          "cause", "-",
+          "birth: marker, pocket, source, scene or nucleation; end: age, unsupported, region, dissolution or "
+          "border",
+          [](const R& r) { return nameOf(r.event.cause); }),
+      event("origin", "-", "number of the source, nucleation or region that did it, from 0; -1: none",
+            [](const R& r) { return r.event.origin; }),
       event("x", "m", "place", [](const R& r) { return r.event.position.x(); }),
       event("y", "m", "place", [](const R& r) { return r.event.position.y(); }),
       event("z", "m", "place", [](const R& r) { return r.event.position.z(); }),

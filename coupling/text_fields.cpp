@@ -44,6 +44,7 @@ bool TextLines::next(std::string_view& line) {
   if (offset_ >= text_.size()) return false;
   const std::string_view whole = firstLine(rest());
   offset_ += whole.size();
+  ++number_;
   line = withoutLineEnd(whole);
   return true;
 }

@@ -15,6 +15,8 @@ class TextLines {
 
   /// Moves to the next line, without its LF or CRLF. False at the end of the text.
   bool next(std::string_view& line);
+  /// Number of the line moved to last, from 1; 0 before the first.
+  std::size_t number() const { return number_; }
   /// What follows the lines passed so far.
   std::string_view rest() const { return text_.substr(offset_); }
   /// The line that starts at `offset` bytes, as `next` would give it.
@@ -32,7 +34,7 @@ class TextLines {
  private:
   std::string path_;
   std::string_view text_;
-  std::size_t offset_ = 0;
+  std::size_t offset_ = 0, number_ = 0;
 };
 
 /// 'text' in quotes, for messages.

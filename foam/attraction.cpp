@@ -12,7 +12,7 @@ void Attraction::findPairs(const FoamParams& params, const BubbleStore& bubbles,
                            const FoamTopology& topology) {
   const double range = kAttractionRange * capillaryLength(params);
   pairs_.clear();
-  if (std::isfinite(range))
+  if (params.weakPairs && std::isfinite(range))
     finder_.find(bubbles.position, bubbles.radius, bubbles.id, floats_, topology, range, pairs_);
 }
 

@@ -33,6 +33,7 @@ std::uint64_t BubbleStore::add(const NewBubble& bubble) {
   radius.back() = bubble.radius;
   gas.back() = 4 * std::numbers::pi / 3 * std::pow(bubble.radius, 3);
   volume.back() = gas.back();
+  wetness.back() = bubble.wetness;
   type.back() = bubble.type;
   surfaceWeight.back() = bubble.type == BubbleClass::liquid ? 1 : 0;
   return nextId++;

@@ -15,6 +15,7 @@ struct NewBubble {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   double radius = 0;                                   ///< [m], > 0
   BubbleClass type = BubbleClass::liquid;
+  double wetness = -1;  ///< lambda of Eq. 1 where it is the bubble's own, 0 to 1; < 0: as the parameters say
 };
 
 /// All bubbles as columns of equal length, ordered by id. Ids are 64-bit, start at 0, and are never used
@@ -28,7 +29,7 @@ struct BubbleStore {
   std::vector<double> age;                ///< since birth [s]
   std::vector<double> exposure;           ///< integral of the bursting hazard so far [-]
   std::vector<double> volume;             ///< of the power cell at the last geometry update [m^3]
-  std::vector<double> wetness;            ///< lambda of Eq. 1 [-]
+  std::vector<double> wetness;            ///< lambda of Eq. 1 [-]; < 0 until the first step asks for it
   std::vector<double> surfaceWeight;      ///< w, 0..1
   std::vector<BubbleClass> type;
   std::vector<std::uint8_t> hidden;        ///< 1: swallowed by another ball, no cell

@@ -1,7 +1,6 @@
 #include "foam/foam_params.h"
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include "foam/errors.h"
@@ -52,13 +51,15 @@ void requireSolid(const SolidSurface& solid) {
   requireRange("solid.adhesion", solid.adhesion, 0, 100, "N/m");
   requireRange("solid.detachRadius", solid.detachRadius, 0, 1, "m");
   requireRange("solid.attraction", solid.attraction, 0, 1, "N m");
-  requireRange("solid.contactAngle", solid.contactAngle, 0, std::numbers::pi, "rad");
+  requireRange("solid.contactAngle", solid.contactAngle, 0, 180, "degrees");
 }
 
 void requireLifeAndSolver(const FoamParams& p) {
   requireRange("burstMedianLife", p.burstMedianLife, 1e-3, 1e9, "s");
   requireRange("burstReferenceRadius", p.burstReferenceRadius, 1e-6, 1, "m");
   requireRange("burstShape", p.burstShape, 0.5, 10, "");
+  requireRange("burstWallFactor", p.burstWallFactor, 0, 1, "");
+  requireRange("burstWallDistance", p.burstWallDistance, 1e-6, 1, "m");
   requireRange("solverTolerance", p.solverTolerance, 1e-12, 1e-1, "");
   requireRange("solverIterations", p.solverIterations, 1, 100000, "");
 }

@@ -12,6 +12,8 @@ enum class DragLaw { coefficient, contaminated, clean };
 enum class BuoyancyLaw { hydrostatic, pressureGradient };
 enum class AirDragLaw { coefficient, stokes };
 enum class AttractionLaw { none, coefficient, capillary };
+enum class WetnessLaw { constant, height, perBubble };
+enum class VolumeMode { relax, newton };
 /// Conjugate gradients with the diagonal blocks or an incomplete Cholesky factor, or a direct factorisation.
 enum class LinearSolver { pcgJacobi, pcgIncompleteCholesky, cholmod };
 
@@ -20,8 +22,10 @@ struct SolidSurface {
   double adhesion = 0.05;  ///< s_sad of Eq. 7 [N/m], 0 to 100
   /// largest bubble it holds against its full buoyancy [m], 0 to 1; 0: clean glass, nothing sticks
   double detachRadius = 0;
-  double attraction = 2e-7;      ///< beta of Eq. 8 in AttractionLaw::coefficient [N m], 0 to 1
-  double contactAngle = 1.0472;  ///< through the liquid, in AttractionLaw::capillary [rad], 0 (wetting) to pi
+  double attraction = 2e-7;  ///< beta of Eq. 8 in AttractionLaw::coefficient [N m], 0 to 1
+  /// through the liquid, in AttractionLaw::capillary [degrees], 0 (wetting) to 180; glass that has been
+  /// touched
+  double contactAngle = 60;
 };
 
 /// Every number that tunes the foam; `presets.h` fills it for a named preset and a scene may override any
@@ -34,7 +38,9 @@ struct FoamParams {
   double gasViscosity = 1.8e-5;         ///< of the air, for the damping aloft [Pa s], 0 to 1
   double surfaceTension = 0.0728;       ///< sigma [N/m], 0.001 to 1
 
-  double wetness = 0.4;         ///< lambda of Eq. 1 [-], 0 to 1
+  /// lambda everywhere the same, changing with the height above the surface, or as each bubble was born with
+  WetnessLaw wetnessLaw = WetnessLaw::height;
+  double wetness = 0.4;         ///< lambda of Eq. 1 [-], 0 to 1; of bubbles born without one
   double wetnessAloft = 0.4;    ///< lambda at wetnessHeight above the surface [-], 0 to 1
   double wetnessHeight = 0.02;  ///< height over which lambda goes to wetnessAloft [m], > 0
 
@@ -55,19 +61,24 @@ struct FoamParams {
   double liquidAdhesion = 0.3;       ///< s_lad of Eq. 5 [N/m], 0 to 100
   /// between floating bubbles, and of solids for them; none costs nothing
   AttractionLaw attractionLaw = AttractionLaw::none;
+  bool weakPairs = true;             ///< floating bubbles attract each other; off: only solids attract them
   double attraction = 4e-6;          ///< alpha of Eq. 6 in AttractionLaw::coefficient [N], 0 to 1
   SolidSurface walls;                ///< of the domain, and of solids beyond the list
   std::vector<SolidSurface> solids;  ///< by solid index
   double wallStiffnessFactor = 10;   ///< wall spring = factor x spring stiffness [-], 0 to 1000
   double contactDamping = 0.2;       ///< zeta of c_lap = 2 zeta sqrt(k m) [-], 0 to 5
 
-  double volumeRate = 10;  ///< gamma [1/s], 0 to 1000
-  double radiusLimit = 2;  ///< largest r / r0 [-], 1.1 to 10
+  VolumeMode volumeMode = VolumeMode::relax;  ///< each cell by itself, or all with their neighbours in mind
+  double volumeRate = 10;                     ///< gamma [1/s], 0 to 1000
+  double radiusLimit = 2;                     ///< largest r / r0 [-], 1.1 to 10
 
   bool bursting = true;
   double burstMedianLife = 1;          ///< median life in air at burstReferenceRadius [s], 1e-3 to 1e9
   double burstReferenceRadius = 1e-3;  ///< [m], 1e-6 to 1
   double burstShape = 2;  ///< Weibull shape: 2 Rayleigh (Eq. 11 as a hazard), 4/3 thin films; 0.5 to 10
+  /// hazard of a bubble that touches a solid over that of one in the open [-], 0 to 1; 1: walls do not matter
+  double burstWallFactor = 1;
+  double burstWallDistance = 0.01;  ///< psi from which on the hazard is whole again [m], 1e-6 to 1
 
   LinearSolver solver = LinearSolver::pcgIncompleteCholesky;
   double solverTolerance = 1e-6;  ///< relative residual of the implicit step, 1e-12 to 1e-1

@@ -14,9 +14,9 @@
 #include "foam/near_walls.h"
 #include "foam/neighbours.h"
 #include "foam/parallel.h"
-#include "foam/power_cells.h"
 #include "foam/surroundings.h"
 #include "foam/volume_correction.h"
+#include "foam/wall_cells.h"
 
 namespace spume::foam {
 namespace {
@@ -63,7 +63,7 @@ struct FoamSolver::Internals {
 
   FoamParams params;
   Integrator integrator;
-  PowerCells cells;
+  WallCells cells;
   FoamTopology topology;
   std::vector<std::uint64_t> topologyId;  ///< ids of the topology's rows
   Neighbours neighbours;
@@ -74,15 +74,19 @@ struct FoamSolver::Internals {
   Eigen::VectorXd phiEnd, psiEnd;
   BubbleStore next;  ///< the bubbles while they change: the caller's stay whole until the end
 
-  void measure();
+  void measure(const LiquidSampler& liquid);
   void relabelAtEnd(const LiquidSampler& liquid);
   void endLivesAndReport(double dt, FoamStepReport& report);
   void summarise(FoamStepReport& report) const;
   void reportClassChanges(const BubbleStore& before, FoamStepReport& report) const;
 };
 
-void FoamSolver::Internals::measure() {
-  cells.compute(next.position, next.radius, next.id, topology);
+void FoamSolver::Internals::measure(const LiquidSampler& liquid) {
+  if (isAnyCutByWall(next, around.psi))
+    findNearWalls(liquid, around, next, next.radius, walls);
+  else
+    walls.clear();
+  cells.compute(next, walls, topology);
   topologyId = next.id;
   neighbours.build(next.size(), topology.overlaps);
 }
@@ -104,7 +108,7 @@ void FoamSolver::Internals::reportClassChanges(const BubbleStore& before, FoamSt
 
 void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report) {
   const auto supported = supportedBubbles(topology, psiEnd, next);
-  const auto ended = endLives(params, topology, supported, dt, next);
+  const auto ended = endLives(params, topology, supported, psiEnd, dt, next);
   if (ended.empty()) return;
   std::vector<std::uint8_t> gone(next.size(), 0);
   for (const EndedLife& life : ended) {
@@ -113,7 +117,7 @@ void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report)
     gone[i] = 1;
     report.events.push_back({merges ? FoamEventKind::merge : FoamEventKind::burst, next.id[i],
                              merges ? next.id[life.heir] : 0, next.position[i], next.radius[i], next.gas[i],
-                             life.age, next.type[i], next.type[i]});
+                             life.age, next.type[i], next.type[i], !supported[i]});
     if (merges)
       coalesce(i, static_cast<std::size_t>(life.heir), integrator.mass(), next);
     else
@@ -156,9 +160,9 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   s.next = bubbles;
   s.around.sample(liquid, s.next.positions());
   clock.end("sample");
-  s.measure();
+  s.measure(liquid);
   clock.end("geometry");
-  correctVolumes(s.params, s.topology, s.around.psi, dt, s.next);
+  correctVolumes(s.params, s.topology, dt, s.next);
   clock.end("volume");
   weighSurface(s.around, s.topology, s.neighbours, s.next);
   clock.end("classes");

@@ -23,6 +23,7 @@ struct FoamEvent {
   double gas;                ///< [m^3]
   double age;                ///< [s]
   BubbleClass from, to;      ///< classChange: before and after; otherwise both the class
+  bool unsupported = false;  ///< burst, merge: its cluster had lost all support
 };
 
 struct FoamStageTime {

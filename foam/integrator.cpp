@@ -73,7 +73,7 @@ void Integrator::describe(const Surroundings& around, const Vectors3& attraction
   const std::size_t n = bubbles.size();
   lone_.resize(n), mass_.resize(n), immersed_.resize(n);
   forEachIndex(n, [&](std::size_t i) {
-    bubbles.wetness[i] = wetnessAt(params_, around.phi[i]);
+    bubbles.wetness[i] = wetnessAt(params_, around.phi[i], bubbles.wetness[i]);
     lone_[i] = loneBubble(params_, drag_, around, bubbles, i);
     lone_[i].weight += attraction[i];
     mass_[i] = lone_[i].mass, immersed_[i] = lone_[i].immersed;

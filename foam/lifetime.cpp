@@ -56,7 +56,7 @@ std::vector<std::ptrdiff_t> largestFilmNeighbours(const FoamTopology& topology,
 }
 
 /// Advances the clocks of bubble i; the age at its end if it comes within the step, else a negative number.
-double advanceClocks(const FoamParams& params, bool supported, double dt, std::size_t i,
+double advanceClocks(const FoamParams& params, bool supported, double psi, double dt, std::size_t i,
                      BubbleStore& bubbles) {
   const double before = bubbles.age[i];
   bubbles.age[i] += dt;
@@ -64,10 +64,11 @@ double advanceClocks(const FoamParams& params, bool supported, double dt, std::s
   const double gas = bubbles.gas[i], threshold = burstThreshold(params.seed, bubbles.id[i]);
   const double lived = timeOfExposure(params, gas, bubbles.exposure[i]);
   const double end = timeOfExposure(params, gas, threshold);
-  bubbles.exposure[i] = burstExposure(params, gas, lived + dt);
+  const double speed = burstClockSpeed(params, psi, bubbles.radius[i]);
+  bubbles.exposure[i] = burstExposure(params, gas, lived + speed * dt);
   if (!supported) bubbles.exposure[i] += threshold * dt / kUnsupportedLife;
   if (bubbles.exposure[i] < threshold) return -1;
-  return before + std::clamp(end - lived, 0.0, dt);
+  return before + (speed > 0 ? std::clamp((end - lived) / speed, 0.0, dt) : dt);
 }
 
 /// Names the heirs of enclosed bubbles. One step moves gas only once: who inherits does not end, and who has
@@ -102,12 +103,21 @@ double burstThreshold(std::uint64_t seed, std::uint64_t id) {
   return -std::log1p(-CounterRandom(seed, id, kBurstPurpose).uniform());
 }
 
+double burstClockSpeed(const FoamParams& params, double psi, double radius) {
+  if (params.burstWallFactor == 1) return 1;
+  const double reach = std::max(params.burstWallDistance, radius);
+  const double share =
+      reach > radius ? std::clamp((psi - radius) / (reach - radius), 0.0, 1.0) : psi > radius;
+  return params.burstWallFactor + share * (1 - params.burstWallFactor);
+}
+
 std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& topology,
-                                const std::vector<std::uint8_t>& supported, double dt, BubbleStore& bubbles) {
+                                const std::vector<std::uint8_t>& supported, const Eigen::VectorXd& psi,
+                                double dt, BubbleStore& bubbles) {
   std::vector<EndedLife> ended;
   std::vector<std::uint8_t> enclosed(bubbles.size(), 0);
   for (std::size_t i = 0; i < bubbles.size(); ++i) {
-    const double age = advanceClocks(params, supported[i], dt, i, bubbles);
+    const double age = advanceClocks(params, supported[i], psi[static_cast<Eigen::Index>(i)], dt, i, bubbles);
     if (age < 0) continue;
     ended.push_back({i, age});
     enclosed[i] = !isOpen(topology, bubbles, i);
@@ -137,6 +147,7 @@ void coalesce(std::size_t from, std::size_t to, const std::vector<double>& mass,
   const double inertiaShare = mass[from] / (mass[from] + mass[to]);
   bubbles.position[to] += share * (bubbles.position[from] - bubbles.position[to]);
   bubbles.velocity[to] += inertiaShare * (bubbles.velocity[from] - bubbles.velocity[to]);
+  bubbles.wetness[to] += share * (bubbles.wetness[from] - bubbles.wetness[to]);
   bubbles.radius[to] *= std::cbrt(gas / bubbles.gas[to]);
   bubbles.gas[to] = gas;
 }

@@ -27,13 +27,18 @@ struct EndedLife {
   std::ptrdiff_t heir = -1;  ///< index of the bubble that takes its gas, or -1: it bursts into the open
 };
 
-/// Advances the clocks by dt [s] (`age` always; `exposure` only while surface or air) and returns the lives
-/// that end, ordered by index. One with free area bursts; one enclosed by others leaves its gas to the
-/// neighbour with the largest film (ties: the lower id), unless that one ends in this step too: then it waits
-/// for the next step. `supported` from supportedBubbles(): air clusters without support end within
-/// kUnsupportedLife.
+/// Share of its normal speed at which the clock of a bubble runs whose centre is `psi` [m] from a solid: from
+/// burstWallFactor where it touches to 1 at burstWallDistance.
+double burstClockSpeed(const FoamParams& params, double psi, double radius);
+
+/// Advances the clocks by dt [s] (`age` always; `exposure` only while surface or air, slower near solids if
+/// asked) and returns the lives that end, ordered by index. `psi` = distances to the solids [m]. One with
+/// free area bursts; one enclosed by others leaves its gas to the neighbour with the largest film (ties: the
+/// lower id), unless that one ends in this step too: then it waits for the next step. `supported` from
+/// supportedBubbles(): air clusters without support end within kUnsupportedLife.
 std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& topology,
-                                const std::vector<std::uint8_t>& supported, double dt, BubbleStore& bubbles);
+                                const std::vector<std::uint8_t>& supported, const Eigen::VectorXd& psi,
+                                double dt, BubbleStore& bubbles);
 
 /// Longest life of an air cluster that touches neither surface nor wall [s] (model, "Bursting").
 inline constexpr double kUnsupportedLife = 0.1;

@@ -10,6 +10,7 @@
 #include "foam/foam_solver.h"
 #include "foam/presets.h"
 #include "foam/still_pool.h"
+#include "tests/support/foam_balls.h"
 
 namespace spume::foam::test {
 
@@ -42,8 +43,6 @@ inline NewBubble bubbleAt(const Eigen::Vector3d& position, double radius,
                           BubbleClass type = BubbleClass::liquid) {
   return {position, velocity, radius, type};
 }
-
-inline double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
 /// Constants of the validation cases (accuracy, header): water at 20 C.
 inline FoamParams waterParams(Preset preset) {

@@ -17,7 +17,9 @@ double stretchedShare(double ri, double rj, double rest, double filmArea) {
 
 }  // namespace
 
-double wetnessAt(const FoamParams& params, double phi) {
+double wetnessAt(const FoamParams& params, double phi, double own) {
+  if (params.wetnessLaw == WetnessLaw::constant) return params.wetness;
+  if (params.wetnessLaw == WetnessLaw::perBubble) return own < 0 ? params.wetness : own;
   const double share = std::clamp(phi / params.wetnessHeight, 0.0, 1.0);
   return (1 - share) * params.wetness + share * params.wetnessAloft;
 }

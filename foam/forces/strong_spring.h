@@ -4,9 +4,10 @@
 
 namespace spume::foam {
 
-/// lambda of a bubble at height phi [m] above the surface: wetness below it, drying linearly to wetnessAloft
-/// at wetnessHeight and staying so above.
-double wetnessAt(const FoamParams& params, double phi);
+/// lambda of a bubble at height phi [m] above the surface by the law of the parameters. height: `wetness`
+/// below it, drying linearly to `wetnessAloft` at `wetnessHeight` and staying so above; perBubble: `own`, the
+/// value it has, or `wetness` where that is < 0.
+double wetnessAt(const FoamParams& params, double phi, double own);
 
 /// Rest length [m] of a contact, l^2 = r_i^2 + r_j^2 + (3 lambda - 1) r_i r_j [Eq. 1]; `wetness` = lambda of
 /// the pair.

@@ -147,6 +147,30 @@ const BadInput kBadInputs[] = {
      kDomain + "[[bubbles]]\nposition = [0, 0, 0]\n",
      {":3:1: bubbles.0.radius is missing"}},
     {"HugeBubble", kDomain + "[[bubbles]]\nposition = [0, 0, 0]\nradius = 0.9\n", {"bubbles 0", "larger"}},
+    {"WetnessOverOne", kDomain + "[foam]\nwetness = 1.1\n", {":4:11: foam.wetness = 1.1", "0 to 1"}},
+    {"WetnessBelowZero", kDomain + "[foam]\nwetness_aloft = -0.1\n", {":4:17: ", "0 to 1"}},
+    {"CoefficientNotANumber",
+     kDomain + "[foam]\nliquid_adhesion = nan\n",
+     {":4:19: foam.liquid_adhesion", "[N/m]"}},
+    {"ContactAngle",
+     kDomain + "[foam.walls]\ncontact_angle = 200\n",
+     {":4:17: foam.walls.contact_angle = 200", "0 to 180 [degrees]"}},
+    {"SolidCoefficient",
+     kDomain + "[[solid]]\nshape = 'sphere'\nradius = 0.1\nadhesion = -1\n",
+     {":6:12: solid.0.adhesion = -1", "0 to 100 [N/m]"}},
+    {"NegativeBubble",
+     kDomain + "[[bubbles]]\nradius = -1e-3\n",
+     {":4:10: bubbles.0.radius = -0.001", "1e-06 to 1 [m]"}},
+    {"NoNumberOfBubble", kDomain + "[[bubbles]]\nradius = nan\n", {":4:10: bubbles.0.radius", "[m]"}},
+    {"WetnessOfOneBubble",
+     kDomain + "[[bubbles]]\nradius = 1e-3\nwetness = 0.5\n",
+     {":5:11: bubbles.0.wetness does not apply", "per_bubble"}},
+    {"BubbleInSolid",
+     kDomain + "[[solid]]\nshape = 'sphere'\nradius = 0.1\n[[bubbles]]\nradius = 1e-3\n",
+     {"bubbles 0", "inside a solid"}},
+    {"FileAndRadius",
+     kDomain + "[[bubbles]]\nfile = 'x.csv'\nradius = 1e-3\n",
+     {":5:10: bubbles.0.radius does not apply", "without a file"}},
     {"OverrideOutOfRange",
      kDomain,
      {"--set time.fps=0: time.fps = 0", "1 to 1000 [1/s]"},
@@ -158,6 +182,37 @@ const BadInput kBadInputs[] = {
 
 INSTANTIATE_TEST_SUITE_P(Table, BadScene, testing::ValuesIn(kBadInputs),
                          [](const testing::TestParamInfo<BadInput>& input) { return input.param.name; });
+
+/// What a scene says about a file of bubbles beside it.
+std::string messageOfBubbles(const std::string& csv, const std::string& scene = kDomain) {
+  const std::string path = temporaryPath("bad_bubbles.csv");
+  std::ofstream(path, std::ios::binary) << csv;
+  const std::string message = messageOf(scene + "[[bubbles]]\nfile = 'bad_bubbles.csv'\n");
+  std::remove(path.c_str());
+  return message;
+}
+
+TEST(BubbleFile, IsRefusedWithFileAndLine) {
+  const std::string head = "id,x,y,z,r\n", good = "0,0.5,0.5,0.5,1e-3\n";
+  const std::pair<std::string, std::vector<std::string>> kCases[] = {
+      {"", {"bad_bubbles.csv: is empty"}},
+      {head, {"bad_bubbles.csv", "no bubbles"}},
+      {head + good + "1,0.5,0.5,0.5,-1e-3\n", {"bad_bubbles.csv:3:", "radius", "-0.001"}},
+      {head + good + "1,0.5,0.5,0.5,nan\n", {"bad_bubbles.csv:3:", "radius"}},
+      {head + good + good, {"bad_bubbles.csv:3:", "id 0", "bad_bubbles.csv:2:"}},
+      {head + good + "1,0.5,0.5\n", {"bad_bubbles.csv:3:", "3 fields"}},
+      {head + "\r\n" + good + "1,0.5,1.5,0.5,1e-3\r\n", {"bad_bubbles.csv:4", "outside the domain"}},
+      {head + good + "1,0.5,0.5,0.5,0.6\n", {"bad_bubbles.csv:3", "larger than the domain", "0.5 m"}}};
+  for (const auto& [csv, parts] : kCases) {
+    const std::string message = messageOfBubbles(csv);
+    for (const std::string& part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+  }
+  const std::string solid = kDomain + "[[solid]]\nshape = 'sphere'\ncentre = [0.5, 0.5, 0.5]\nradius = 0.1\n";
+  EXPECT_NE(
+      messageOfBubbles(head + good, solid).find("bad_bubbles.csv:2: position [0.5, 0.5, 0.5] is inside a"),
+      std::string::npos);
+}
 
 TEST(SceneFile, MissingFileIsAFileError) {
   try {

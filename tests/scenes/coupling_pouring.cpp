@@ -56,7 +56,7 @@ struct Watch {
   void note(const Event& event) {
     if (event.kind == Event::Kind::classChange) ++changes[event.id];
     if (event.kind == Event::Kind::burst && event.from == foam::BubbleClass::liquid) ++burstUnderWater;
-    const bool ofTheLiquid = event.cause == BirthCause::marker || event.cause == BirthCause::pocket;
+    const bool ofTheLiquid = event.cause == EventCause::marker || event.cause == EventCause::pocket;
     if (event.kind == Event::Kind::birth && !ofTheLiquid) ++otherBirths;
   }
 

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "coupling/foam_objects.h"
 #include "coupling/scene_builder.h"
 #include "coupling/scene_toml.h"
 
@@ -89,7 +90,8 @@ TEST(SceneBuilder, SolidsAndWallsReachTheSetup) {
 
 TEST(SceneBuilder, BubblesAreNumberedInTheOrderOfTheScene) {
   Scene scene = pouring();
-  scene.bubbles = {{{0.01, 0.01, 0.01}, {0, 0.1, 0}, 1e-3, {}}, {{0.02, 0.02, 0.02}, {0, 0, 0}, 2e-3, {}}};
+  scene.bubbles = {{"", {{0.01, 0.01, 0.01}, {0, 0.1, 0}, 1e-3, {}}},
+                   {"", {{0.02, 0.02, 0.02}, {0, 0, 0}, 2e-3, {}}}};
   const foam::BubbleStore bubbles = initialBubbles(scene);
   EXPECT_EQ(bubbles.id, (std::vector<std::uint64_t>{0, 1}));
   EXPECT_EQ(bubbles.radius[1], 2e-3);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "coupling/foam_objects.h"
 #include "coupling/nearest_key.h"
 #include "coupling/scene_keys.h"
 #include "coupling/scene_toml.h"
@@ -86,6 +87,45 @@ TEST(SceneToml, PresetIsOverriddenByKeysWhateverTheirOrder) {
   EXPECT_EQ(scene.foam.springFromSurfaceTension, physical.springFromSurfaceTension);
 }
 
+TEST(SceneToml, SolidsAndWallsSayHowBubblesTakeToThem) {
+  const Scene scene =
+      readText(kDomain +
+               "[foam]\npreset = 'paper'\nattraction_law = 'capillary'\nweak_pairs = false\n"
+               "[foam.walls]\ndetach_radius = 1e-3\ncontact_angle = 70\n"
+               "[[solid]]\nshape = 'sphere'\nradius = 0.1\nadhesion = 0.2\nattraction = 3e-7\n");
+  const foam::FoamParams params = foamParamsOf(scene);
+  EXPECT_EQ(params.attractionLaw, foam::AttractionLaw::capillary);
+  EXPECT_FALSE(params.weakPairs);
+  EXPECT_EQ(params.walls.detachRadius, 1e-3);
+  EXPECT_EQ(params.walls.contactAngle, 70);
+  ASSERT_EQ(params.solids.size(), 1u);
+  EXPECT_EQ(params.surfaceOf(0).adhesion, 0.2);
+  EXPECT_EQ(params.surfaceOf(0).attraction, 3e-7);
+  EXPECT_EQ(params.surfaceOf(0).detachRadius, 0);
+}
+
+TEST(SceneToml, BubblesMayHaveTheirOwnWetness) {
+  const std::string bubble = "[[bubbles]]\nposition = [0.5, 0.5, 0.5]\nradius = 1e-3\n";
+  const std::string law = "[foam]\nwetness_law = 'per_bubble'\nwetness = 0.3\n";
+  const Scene scene = readText(kDomain + law + bubble + "wetness = 0.7\n" + bubble);
+  const foam::BubbleStore bubbles = initialBubbles(scene);
+  EXPECT_EQ(bubbles.wetness, (std::vector<double>{0.7, 0.3}));
+}
+
+TEST(SceneToml, BubblesOfAFileComeWithTheirVelocities) {
+  const std::string path = temporaryPath("bubbles.csv");
+  std::ofstream(path) << "id,x,y,z,r,vx,vy,vz\r\n7,0.1,0.2,0.3,1e-3,1,2,3\r\n3,0.4,0.5,0.6,2e-3,0,0,0\r\n";
+  const Scene scene = readText(kDomain + "[[bubbles]]\nfile = 'bubbles.csv'\n");
+  EXPECT_EQ(scene.bubbles.at(0).file, path);
+  const foam::BubbleStore bubbles = initialBubbles(scene);
+  ASSERT_EQ(bubbles.size(), 2u);
+  EXPECT_EQ(bubbles.position[0], Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(bubbles.velocity[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(bubbles.radius[1], 2e-3);
+  EXPECT_EQ(writeScene(readText(writeScene(scene))), writeScene(scene));
+  std::remove(path.c_str());
+}
+
 TEST(SceneToml, WrittenSceneReadsBackToTheSameBits) {
   Scene scene = unusualScene();
   scene.title = "quotes \" and \\ and\ttabs";
@@ -105,7 +145,11 @@ TEST(SceneToml, WrittenSceneReadsBackToTheSameBits) {
   scene.probes[0] = {"depth", ProbeKind::height, {1. / 3, 1, 1}, {}};
   scene.inflows[0] = {"jet", {2, 2, 2}, {0, 0.1, 0.3}, 0.3, scene.inflows[0].speed, 0.1, 1. / 3, 2};
   scene.liquid.markerRadiusMin = 0.2;
-  scene.bubbles = {{{0.1, 2, 2.5}, {1. / 3, 0, 0}, 1e-3 / 7, {}}};
+  scene.bubbles = {{"", {{0.1, 2, 2.5}, {1. / 3, 0, 0}, 1e-3 / 7, {}}}};
+  scene.bubbleSources[0].shape = scene.solids[0].shape;
+  scene.bubbleSources[0].shape.upper.x() = 2. / 3;
+  scene.bubbleKills[0].shape = scene.bubbleSources[0].shape;
+  scene.stillPool.enabled = false;
   const std::string text = writeScene(scene);
   EXPECT_EQ(writeScene(readText(text)), text);
 }
@@ -157,6 +201,9 @@ TEST(Animated, IsLinearBetweenKeysAndHeldBeyond) {
   EXPECT_EQ(animated.at(3.75), 5);
   EXPECT_EQ(animated.at(9), 0);
   EXPECT_EQ(animated.largest(), 20);
+  EXPECT_DOUBLE_EQ(animated.integral(0, 9), 10 + 30 + 10 + 0);
+  EXPECT_DOUBLE_EQ(animated.integral(2, 3.5), 17.5 + 7.5);
+  EXPECT_DOUBLE_EQ(Animated(3).integral(-1, 4), 15);
 }
 
 TEST(NearestKey, EditDistanceCountsChangesAndSwaps) {

@@ -85,8 +85,8 @@ TEST(SolidAttraction, WettingAttractsAndNonWettingRepels) {
                load = surfaceLoad(params, gas, 1e-3);
   SolidSurface solid;
   for (const double degrees : {30.0, 60.0, 120.0}) {
-    solid.contactAngle = degrees * std::numbers::pi / 180;
-    const double expected = load / std::tan(solid.contactAngle) * std::exp(-2);
+    solid.contactAngle = degrees;
+    const double expected = load / std::tan(degrees * std::numbers::pi / 180) * std::exp(-2);
     EXPECT_NEAR(solidAttraction(params, solid, gas, 1e-3, 2 * length), expected, 1e-6 * std::abs(expected));
   }
   solid.contactAngle = 0;

@@ -198,9 +198,19 @@ TEST(StrongSpring, StiffnessHasTheFloorOfBuoyancy) {
 TEST(StrongSpring, WetnessFallsWithHeight) {
   FoamParams params;
   params.wetness = 0.6, params.wetnessAloft = 0.2, params.wetnessHeight = 0.02;
-  EXPECT_DOUBLE_EQ(wetnessAt(params, -0.1), 0.6);
-  EXPECT_DOUBLE_EQ(wetnessAt(params, 0.01), 0.4);
-  EXPECT_DOUBLE_EQ(wetnessAt(params, 1), 0.2);
+  EXPECT_DOUBLE_EQ(wetnessAt(params, -0.1, 0.9), 0.6);
+  EXPECT_DOUBLE_EQ(wetnessAt(params, 0.01, 0.9), 0.4);
+  EXPECT_DOUBLE_EQ(wetnessAt(params, 1, 0.9), 0.2);
+}
+
+TEST(StrongSpring, WetnessMayBeTheSameEverywhereOrEachBubblesOwn) {
+  FoamParams params;
+  params.wetness = 0.6, params.wetnessAloft = 0.2, params.wetnessHeight = 0.02;
+  params.wetnessLaw = WetnessLaw::constant;
+  EXPECT_DOUBLE_EQ(wetnessAt(params, 1, 0.9), 0.6);
+  params.wetnessLaw = WetnessLaw::perBubble;
+  EXPECT_DOUBLE_EQ(wetnessAt(params, 1, 0.9), 0.9);
+  EXPECT_DOUBLE_EQ(wetnessAt(params, 1, -1), 0.6);
 }
 
 TEST(ContactDamping, IsTheCriticalShareOfThePair) {

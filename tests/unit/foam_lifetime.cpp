@@ -23,6 +23,10 @@ struct OpenBubbles {
     topology.volume = bubbles.gas;
     topology.hidden.assign(n, 0);
   }
+  /// Far from any solid.
+  Eigen::VectorXd psi() const {
+    return Eigen::VectorXd::Constant(static_cast<Eigen::Index>(bubbles.size()), 1.0);
+  }
 };
 
 /// Lives [s] of n bubbles, stepped by dt(step).
@@ -32,7 +36,8 @@ std::vector<double> lives(const FoamParams& params, std::size_t n, double radius
   std::vector<double> found;
   for (int step = 0; found.size() < n && step < 100000; ++step) {
     std::vector<std::uint8_t> gone(open.bubbles.size(), 0);
-    for (const EndedLife& life : endLives(params, open.topology, open.supported, dt(step), open.bubbles))
+    for (const EndedLife& life :
+         endLives(params, open.topology, open.supported, open.psi(), dt(step), open.bubbles))
       gone[life.index] = 1, found.push_back(life.age);
     open.bubbles.remove(gone);
   }
@@ -73,13 +78,33 @@ TEST(Lifetime, FollowsRayleighAndWeibullForEveryStep) {
   }
 }
 
+TEST(Lifetime, ClockRunsSlowerNearWallsIfAsked) {
+  FoamParams params;
+  EXPECT_EQ(burstClockSpeed(params, 0, 1e-3), 1);
+  params.burstWallFactor = 0.25, params.burstWallDistance = 5e-3;
+  EXPECT_EQ(burstClockSpeed(params, 1e-3, 1e-3), 0.25);
+  EXPECT_EQ(burstClockSpeed(params, -1e-3, 1e-3), 0.25);
+  EXPECT_DOUBLE_EQ(burstClockSpeed(params, 3e-3, 1e-3), 0.625);
+  EXPECT_EQ(burstClockSpeed(params, 5e-3, 1e-3), 1);
+  // At the wall everything takes four times as long, whatever the shape of the hazard.
+  OpenBubbles open(1, 1e-3), wall(1, 1e-3);
+  const Eigen::VectorXd touching = Eigen::VectorXd::Constant(1, 1e-3);
+  const auto advance = [&](OpenBubbles& one, const Eigen::VectorXd& psi, double dt) {
+    return endLives(params, one.topology, one.supported, psi, dt, one.bubbles);
+  };
+  const auto inOpen = advance(open, open.psi(), 100), atWall = advance(wall, touching, 100);
+  ASSERT_EQ(inOpen.size(), 1u);
+  ASSERT_EQ(atWall.size(), 1u);
+  EXPECT_NEAR(atWall[0].age, 4 * inOpen[0].age, 1e-12);
+}
+
 TEST(Lifetime, ClockStandsStillUnderWater) {
   OpenBubbles open(100, 1e-3);
   FoamParams params;
   params.burstMedianLife = 1e-3;
   std::fill(open.bubbles.type.begin(), open.bubbles.type.end(), BubbleClass::liquid);
   for (int step = 0; step < 100; ++step)
-    EXPECT_TRUE(endLives(params, open.topology, open.supported, 0.1, open.bubbles).empty());
+    EXPECT_TRUE(endLives(params, open.topology, open.supported, open.psi(), 0.1, open.bubbles).empty());
   EXPECT_EQ(open.bubbles.exposure[0], 0);
   EXPECT_NEAR(open.bubbles.age[0], 10, 1e-12);
 }
@@ -93,7 +118,7 @@ TEST(Lifetime, ExposureAndTimeAreInverse) {
 TEST(Lifetime, SmallExposuresAndLongLivesStayFinite) {
   OpenBubbles open(2, 1e-3);
   open.bubbles.age = {0, 1e9}, open.bubbles.exposure = {0, 1e12};
-  const auto ended = endLives(FoamParams(), open.topology, open.supported, 0.01, open.bubbles);
+  const auto ended = endLives(FoamParams(), open.topology, open.supported, open.psi(), 0.01, open.bubbles);
   ASSERT_EQ(ended.size(), 1u);
   EXPECT_EQ(ended[0].index, 1u);
   EXPECT_TRUE(std::isfinite(ended[0].age));
@@ -111,7 +136,7 @@ TEST(Lifetime, AnEnclosedBubbleLeavesItsGasToTheLargestFilm) {
   OpenBubbles open = row(3);
   open.topology.freeArea[1] = 0;
   open.bubbles.exposure[1] = 1e3;
-  const auto ended = endLives(FoamParams(), open.topology, open.supported, 0.001, open.bubbles);
+  const auto ended = endLives(FoamParams(), open.topology, open.supported, open.psi(), 0.001, open.bubbles);
   ASSERT_EQ(ended.size(), 1u);
   EXPECT_EQ(ended[0].index, 1u);
   EXPECT_EQ(ended[0].heir, 2);
@@ -121,7 +146,7 @@ TEST(Lifetime, EnclosedBubblesThatInheritFromEachOtherDoNotWaitForEver) {
   OpenBubbles open = row(2);
   std::fill(open.topology.freeArea.begin(), open.topology.freeArea.end(), 0);
   std::fill(open.bubbles.exposure.begin(), open.bubbles.exposure.end(), 1e3);
-  const auto ended = endLives(FoamParams(), open.topology, open.supported, 0.001, open.bubbles);
+  const auto ended = endLives(FoamParams(), open.topology, open.supported, open.psi(), 0.001, open.bubbles);
   ASSERT_EQ(ended.size(), 1u);
   EXPECT_EQ(ended[0].heir, 1);
 }
@@ -153,7 +178,8 @@ TEST(Lifetime, AirClustersWithoutSupportEndWithinTheirTime) {
   params.burstMedianLife = 1e9;
   std::vector<std::size_t> ended;
   for (int step = 0; step < 20; ++step)
-    for (const EndedLife& life : endLives(params, open.topology, open.supported, 0.005, open.bubbles))
+    for (const EndedLife& life :
+         endLives(params, open.topology, open.supported, open.psi(), 0.005, open.bubbles))
       ended.push_back(life.index);
   std::sort(ended.begin(), ended.end());
   ended.erase(std::unique(ended.begin(), ended.end()), ended.end());

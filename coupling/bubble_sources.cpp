@@ -1,0 +1,158 @@
+#include "coupling/bubble_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "coupling/scene_builder.h"
+#include "coupling/shapes.h"
+#include "foam/counter_random.h"
+
+namespace spume::coupling {
+namespace {
+
+/// Purposes of the random numbers drawn here, so that no two share a stream.
+constexpr std::uint64_t kTimePurpose = 0x736f757263650002;
+constexpr std::uint64_t kRadiusPurpose = 0x736f757263650003;
+constexpr std::uint64_t kPlacePurpose = 0x736f757263650004;
+
+/// Places a bubble may choose from: with half of the region covered all are only once in 65 000.
+constexpr int kPlaces = 16;
+/// Points drawn in the box of a region for them: enough for a shape that fills a fiftieth of its box.
+constexpr int kDraws = 50 * kPlaces;
+
+double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+
+std::uint64_t streamOf(std::uint64_t seed, std::size_t source) {
+  return foam::CounterRandom(seed, source, kTimePurpose).bits();
+}
+
+/// Balls that new bubbles should not cover.
+struct Neighbourhood {
+  std::vector<Eigen::Vector3d> position;
+  std::vector<double> radius;
+
+  Neighbourhood(const foam::BubbleStore& bubbles, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                double reach) {
+    for (std::size_t i = 0; i < bubbles.size(); ++i) {
+      const double r = bubbles.radius[i] + reach;
+      const Eigen::Vector3d& x = bubbles.position[i];
+      if ((x.array() > lower.array() - r).all() && (x.array() < upper.array() + r).all())
+        add(x, bubbles.radius[i]);
+    }
+  }
+  void add(const Eigen::Vector3d& x, double r) { position.push_back(x), radius.push_back(r); }
+  /// Room between a new ball and the nearest other [m], < 0 where they overlap.
+  double clearance(const Eigen::Vector3d& x, double r) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < position.size(); ++i)
+      least = std::min(least, (x - position[i]).norm() - radius[i] - r);
+    return least;
+  }
+};
+
+/// Where one source finds places.
+class Region {
+ public:
+  Region(const BubbleSourceSpec& spec, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+         const foam::LiquidSampler& liquid, const foam::BubbleStore& bubbles)
+      : spec_(spec),
+        liquid_(liquid),
+        lower_(bounds(spec.shape).first.cwiseMax(lower)),
+        upper_(bounds(spec.shape).second.cwiseMin(upper)),
+        near_(bubbles, lower_, upper_, spec.radius.most) {}
+
+  /// Finds a place for a bubble of radius r: the first clear of solids and bubbles, else the one with most
+  /// room, as in a gap narrower than the bubble. False if all are in solids or, where it matters, out of the
+  /// liquid.
+  bool place(double r, foam::CounterRandom random, Eigen::Vector3d& found) {
+    const Eigen::Matrix3Xd places = drawPlaces(random);
+    const Eigen::Index n = places.cols();
+    Eigen::VectorXd phi(n), psi(n);
+    if (n > 0) liquid_.phi(places, phi), liquid_.psi(places, psi);
+    double best = -std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < n && best < 0; ++k) {
+      if (psi[k] <= 0 || (spec_.immersed && phi[k] > -r)) continue;
+      const double room = std::min(psi[k] - r, near_.clearance(places.col(k), r));
+      if (room > best) best = room, found = places.col(k);
+    }
+    if (best == -std::numeric_limits<double>::infinity()) return false;
+    near_.add(found, r);
+    return true;
+  }
+
+ private:
+  Eigen::Matrix3Xd drawPlaces(foam::CounterRandom& random) const {
+    Eigen::Matrix3Xd places(3, kPlaces);
+    Eigen::Index count = 0;
+    for (int draw = 0; draw < kDraws && count < kPlaces; ++draw) {
+      const Eigen::Array3d share(random.uniform(), random.uniform(), random.uniform());
+      const Eigen::Vector3d x = lower_ + (share * (upper_ - lower_).array()).matrix();
+      if (signedDistance(spec_.shape, x) <= 0) places.col(count++) = x;
+    }
+    return places.leftCols(count);
+  }
+
+  const BubbleSourceSpec& spec_;
+  const foam::LiquidSampler& liquid_;
+  Eigen::Vector3d lower_, upper_;
+  Neighbourhood near_;
+};
+
+}  // namespace
+
+/// A bubble whose time has come.
+struct BubbleSources::Due {
+  std::uint64_t birth;
+  double radius;
+};
+
+BubbleSources::BubbleSources(const Scene& scene)
+    : specs_(scene.bubbleSources),
+      lower_(scene.domain.lower),
+      upper_(gridOf(scene).upper()),
+      seed_(scene.seed) {}
+
+double BubbleSources::drawRadius(std::size_t source, std::uint64_t birth) const {
+  foam::CounterRandom random(streamOf(seed_, source), birth, kRadiusPurpose);
+  return specs_[source].radius.draw(random);
+}
+
+std::vector<BubbleSources::Due> BubbleSources::dueUntil(std::size_t source, double to,
+                                                        SourceProgress& progress) const {
+  const BubbleSourceSpec& spec = specs_[source];
+  std::vector<Due> due;
+  if (to <= spec.start) return due;
+  const bool byNumber = spec.measure == SourceMeasure::number;
+  const double total = (byNumber ? spec.rate : spec.gasRate).integral(spec.start, std::min(to, spec.stop));
+  for (;;) {
+    const double radius = drawRadius(source, progress.births), gas = progress.gas + ballVolume(radius);
+    const double jitter =
+        foam::CounterRandom(streamOf(seed_, source), progress.births, kTimePurpose).uniform();
+    if ((byNumber ? static_cast<double>(progress.births) + jitter : gas) >= total) return due;
+    due.push_back({progress.births++, radius});
+    progress.gas = gas;
+  }
+}
+
+std::vector<Blown> BubbleSources::step(double to, const foam::LiquidSampler& liquid,
+                                       const foam::BubbleStore& bubbles,
+                                       std::vector<SourceProgress>& progress) const {
+  std::vector<Blown> blown;
+  progress.resize(specs_.size());
+  for (std::size_t s = 0; s < specs_.size(); ++s) {
+    const std::vector<Due> due = dueUntil(s, to, progress[s]);
+    if (due.empty()) continue;
+    Region region(specs_[s], lower_, upper_, liquid, bubbles);
+    for (const Due& one : due) {
+      foam::NewBubble bubble{
+          {0, 0, 0}, specs_[s].velocity, one.radius, foam::BubbleClass::liquid, specs_[s].wetness};
+      const foam::CounterRandom random(streamOf(seed_, s), one.birth, kPlacePurpose);
+      if (region.place(one.radius, random, bubble.position)) blown.push_back({bubble, static_cast<int>(s)});
+    }
+  }
+  return blown;
+}
+
+}  // namespace spume::coupling

@@ -1,0 +1,134 @@
+#include "coupling/foam_objects.h"
+
+#include <algorithm>
+
+#include "coupling/bubble_table.h"
+#include "coupling/scene_builder.h"
+#include "coupling/shapes.h"
+#include "coupling/toml_slot.h"
+#include "foam/counter_random.h"
+
+namespace spume::coupling {
+namespace {
+
+constexpr std::uint64_t kProbePurpose = 0x736f757263650001;
+constexpr int kRoomProbes = 2000;  // points that look for room in a source: finds a share of 0.3 % for sure
+
+std::string text(const Eigen::Vector3d& v) {
+  return "[" + exactText(v.x()) + ", " + exactText(v.y()) + ", " + exactText(v.z()) + "]";
+}
+
+std::string labelOf(const std::string& table, const std::string& name, std::size_t item) {
+  return name.empty() ? table + " " + std::to_string(item) : table + " '" + name + "'";
+}
+
+/// The box of the domain, as the grid rounds it.
+struct Box {
+  Eigen::Vector3d lower, upper;
+
+  explicit Box(const Scene& scene) : lower(scene.domain.lower), upper(gridOf(scene).upper()) {}
+  bool holds(const Eigen::Vector3d& x) const {
+    return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
+  }
+  std::string words() const { return "the domain from " + text(lower) + " to " + text(upper) + " m"; }
+};
+
+/// Calls visit(bubble, place) for every bubble of the scene; `place` says where it stands, for messages.
+template <typename Visit>
+void forEachBubble(const Scene& scene, const Visit& visit) {
+  for (std::size_t item = 0; item < scene.bubbles.size(); ++item) {
+    const BubblesSpec& spec = scene.bubbles[item];
+    if (spec.file.empty()) {
+      visit(spec.bubble, [&] { return "bubbles " + std::to_string(item); });
+      continue;
+    }
+    const BubbleTable table = readBubbleTable(spec.file);
+    for (std::size_t row = 0; row < table.size(); ++row)
+      visit(foam::NewBubble{table.position[row], table.velocity[row], table.radius[row],
+                            foam::BubbleClass::liquid, spec.bubble.wetness},
+            [&] { return table.placeOf(spec.file, row); });
+  }
+}
+
+void checkBubbles(const Scene& scene, const Box& domain, const SignedDistance& psi) {
+  const double widest = (domain.upper - domain.lower).minCoeff();
+  forEachBubble(scene, [&](const foam::NewBubble& bubble, const auto& place) {
+    if (!domain.holds(bubble.position))
+      throw SceneError(place() + ": position " + text(bubble.position) + " lies outside " + domain.words() +
+                       "; move the bubble or the domain");
+    if (2 * bubble.radius > widest)
+      throw SceneError(place() + ": radius " + exactText(bubble.radius) +
+                       " m: the bubble is larger than the domain; at most " + exactText(widest / 2) + " m");
+    if (psi(bubble.position) <= 0)
+      throw SceneError(place() + ": position " + text(bubble.position) +
+                       " is inside a solid; move the bubble or the solid");
+  });
+}
+
+void checkRegion(const ShapeSpec& shape, const Box& domain, const std::string& object) {
+  const std::string problem = defect(shape);
+  if (!problem.empty()) throw SceneError(object + " (" + nameOf(shape.kind) + "): " + problem);
+  const auto [lower, upper] = bounds(shape);
+  if ((lower.array() >= domain.upper.array()).any() || (upper.array() <= domain.lower.array()).any())
+    throw SceneError(object + ": lies outside " + domain.words() + "; move it or remove it");
+}
+
+bool hasRoom(const ShapeSpec& shape, const Box& domain, const SignedDistance& psi) {
+  const auto [lower, upper] = bounds(shape);
+  const Eigen::Vector3d low = lower.cwiseMax(domain.lower), size = upper.cwiseMin(domain.upper) - low;
+  foam::CounterRandom random(0, 0, kProbePurpose);
+  for (int n = 0; n < kRoomProbes; ++n) {
+    const Eigen::Array3d place(random.uniform(), random.uniform(), random.uniform());
+    const Eigen::Vector3d x = low + (place * size.array()).matrix();
+    if (signedDistance(shape, x) <= 0 && psi(x) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+foam::BubbleStore initialBubbles(const Scene& scene) {
+  foam::BubbleStore bubbles;
+  forEachBubble(scene, [&](const foam::NewBubble& bubble, const auto&) { bubbles.add(bubble); });
+  return bubbles;
+}
+
+foam::FoamParams foamParamsOf(const Scene& scene) {
+  foam::FoamParams params = scene.foam;
+  params.solids.clear();
+  for (const SolidSpec& solid : scene.solids) params.solids.push_back(solid.surface);
+  return params;
+}
+
+std::vector<foam::NucleationParams> nucleationParamsOf(const Scene& scene) {
+  std::vector<foam::NucleationParams> all;
+  for (const NucleationSpec& spec : scene.nucleation) {
+    foam::NucleationParams params;
+    params.density = spec.density, params.waiting = spec.waiting, params.radius = spec.radius;
+    params.start = spec.start, params.stop = spec.stop;
+    const auto named = [&](const SolidSpec& solid) { return solid.name == spec.solid; };
+    const auto solid = std::find_if(scene.solids.begin(), scene.solids.end(), named);
+    if (spec.solid == kWallsOfDomain) params.solid = -1;
+    if (!spec.solid.empty() && solid != scene.solids.end())
+      params.solid = static_cast<int>(solid - scene.solids.begin());
+    all.push_back(params);
+  }
+  return all;
+}
+
+void checkFoamObjects(const Scene& scene) {
+  const Box domain(scene);
+  const SignedDistance psi = solidDistance(scene);
+  checkBubbles(scene, domain, psi);
+  for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i) {
+    const BubbleSourceSpec& source = scene.bubbleSources[i];
+    const std::string object = labelOf("bubble_source", source.name, i);
+    checkRegion(source.shape, domain, object);
+    if (!hasRoom(source.shape, domain, psi))
+      throw SceneError(object + ": is inside a solid; move the source or the solid");
+  }
+  for (std::size_t i = 0; i < scene.bubbleKills.size(); ++i)
+    checkRegion(scene.bubbleKills[i].shape, domain, labelOf("bubble_kill", scene.bubbleKills[i].name, i));
+}
+
+}  // namespace spume::coupling

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "coupling/errors.h"
+#include "coupling/scene.h"
+#include "foam/bubble_store.h"
+#include "foam/nucleation.h"
+
+namespace spume::coupling {
+
+/// The bubbles a scene starts with, numbered from 0 in the order of the scene and its files. Reads the files;
+/// throws FileError or SceneError as readBubbleTable does.
+foam::BubbleStore initialBubbles(const Scene& scene);
+
+/// The parameters of the foam with the surface of every solid of the scene.
+foam::FoamParams foamParamsOf(const Scene& scene);
+
+/// The scene's nucleation with solids by index.
+std::vector<foam::NucleationParams> nucleationParamsOf(const Scene& scene);
+
+/// What [[nucleation]] calls the walls of the domain.
+inline constexpr char kWallsOfDomain[] = "walls";
+
+/// Throws SceneError naming the first object about bubbles that cannot be simulated, of a file with its line,
+/// and the remedy: a bubble outside the domain, inside a solid or larger than the domain; a source or a
+/// region without a proper shape or outside the domain; a source with no room outside the solids.
+void checkFoamObjects(const Scene& scene);
+
+}  // namespace spume::coupling

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "foam/bubble_store.h"
+#include "foam/foam_topology.h"
+#include "foam/near_walls.h"
+#include "foam/power_cells.h"
+
+namespace spume::foam {
+
+/// A bubble whose centre is nearer to a solid than this many radii is cut by its plane; beyond it the cap
+/// behind the plane holds 3e-4 of the ball and is not worth a plane.
+inline constexpr double kCutByWall = 0.98;
+
+/// Whether there is a bubble whose distance `psi` [m] to the nearest solid is that small.
+bool isAnyCutByWall(const BubbleStore& bubbles, const Eigen::VectorXd& psi);
+
+/// Power cells of bubbles at solids, cut by the planes of the solids, exactly. A plane enters the power
+/// diagram as a ball behind it: one at x - r n of squared radius 2 r (r - psi) has the plane as its radical
+/// plane with the bubble, and is the farther of the two, as power goes, from every point on the free side. So
+/// it takes from nobody there, and behind the plane each bubble loses all to its own. Deviation: [Busaryev
+/// 2012, 5.2] doubles the volume of every wall bubble.
+class WallCells {
+ public:
+  /// As PowerCells::compute, with volumes, free areas and films on the free side of the solids only; a bubble
+  /// wholly behind a plane has volume and areas 0. `walls`: within a radius of each bubble, or empty where
+  /// none is cut; that costs as much as PowerCells.
+  void compute(const BubbleStore& bubbles, const std::vector<NearWalls>& walls, FoamTopology& out);
+
+ private:
+  void addPlanes(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
+
+  PowerCells cells_;
+  std::vector<Eigen::Vector3d> position_;  ///< of the bubbles, then of the balls behind planes [m]
+  std::vector<double> radius_;
+  std::vector<std::uint64_t> id_;
+};
+
+}  // namespace spume::foam
