@@ -87,7 +87,8 @@ SignedDistance liquidInVessel(const SolidSpec& vessel, double depth, const Eigen
   const Pose pose = poseAt(vessel.motion, 0);
   const Eigen::Vector3d axis = vessel.shape.axis.normalized();
   const Eigen::Vector3d surface = pose.toWorld(vessel.shape.centre + depth * axis);
-  const Eigen::Vector3d up = gravity.norm() > 0 ? -gravity.normalized() : pose.rotation * axis;
+  const Eigen::Vector3d against = gravity.norm() > 0 ? gravity : Eigen::Vector3d(-(pose.rotation * axis));
+  const Eigen::Vector3d up = -against.normalized();
   return [shape = vessel.shape, pose, surface, up](const Eigen::Vector3d& x) {
     return std::max(roomInVessel(shape, pose.toPlaced(x)), up.dot(x - surface));
   };

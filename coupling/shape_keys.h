@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "coupling/key_table_builder.h"
@@ -31,8 +32,8 @@ class ShapeKeys {
     for (const ShapeKind kind : kinds) names.emplace_back(nameOf(kind));
     table.choice(
         "shape", [](Object & o) -> auto& { return o.shape.kind; }, names, "kind of the shape");
-    table.onlyIf([](const Object& object) { return hasShape(object); },
-                 "bodies without a vessel, volume probes");
+    if (std::is_same_v<Object, LiquidBodySpec>) table.onlyIf(hasShapeOf, "bodies without a vessel");
+    if (std::is_same_v<Object, ProbeSpec>) table.onlyIf(hasShapeOf, "volume");
   }
 
   void addPrimitives() {
@@ -62,6 +63,8 @@ class ShapeKeys {
   }
 
  private:
+  static bool hasShapeOf(const Object& object) { return hasShape(object); }
+
   template <typename Member>
   void add(const char* name, Member member, const KeyRange& range, const char* meaning,
            const std::vector<ShapeKind>& kinds) {
@@ -72,7 +75,7 @@ class ShapeKeys {
             name, [member](Object & o) -> auto& { return o.shape.*member; }, range, meaning)
         .onlyIf(
             [kinds](const Object& object) {
-              return hasShape(object) &&
+              return hasShapeOf(object) &&
                      std::find(kinds.begin(), kinds.end(), object.shape.kind) != kinds.end();
             },
             words);

@@ -13,6 +13,7 @@ namespace spume::coupling {
 namespace {
 
 constexpr double kEdge = 0.16, kDepth = 0.0613;  // [m]: the surface lies between cell centres
+const Eigen::Vector3d kNowhere{0, 0, 0};
 
 ProbeSpec probe(const std::string& name, ProbeKind kind, const Eigen::Vector3d& position) {
   ProbeSpec spec;
@@ -61,7 +62,7 @@ TEST(Probes, ReadAStillTankAlongEveryAxis) {
                       probe("shallow", ProbeKind::pressure, at(down, kDepth - 0.002)),
                       probe("aloft", ProbeKind::pressure, at(down, kDepth + 0.002)),
                       probe("u", ProbeKind::velocity, at(down, 0.03))};
-      ProbeSpec lower = probe("half", ProbeKind::volume, {});
+      ProbeSpec lower = probe("half", ProbeKind::volume, kNowhere);
       lower.shape.kind = ShapeKind::box;
       lower.shape.lower = {-1, -1, -1};
       lower.shape.upper = {0.5 * kEdge, 1, 1};
@@ -84,7 +85,7 @@ TEST(Probes, ReadAStillTankAlongEveryAxis) {
 
 TEST(Probes, ColumnsAreNamedAfterTheProbes) {
   Scene scene;
-  scene.probes = {probe("a", ProbeKind::height, {}), probe("", ProbeKind::velocity, {})};
+  scene.probes = {probe("a", ProbeKind::height, kNowhere), probe("", ProbeKind::velocity, kNowhere)};
   std::vector<std::string> names;
   for (const ColumnInfo& column : probeColumns(scene)) names.push_back(column.name);
   EXPECT_EQ(names, (std::vector<std::string>{"a_surface", "a_wet", "probe1_x", "probe1_y", "probe1_z"}));
