@@ -50,8 +50,10 @@ void sampleRanged(const FieldView& f, const std::array<float, 3>& shift, const P
   for (int n = 0; n < kPathChunk; ++n) {
     const CellBase b = innerCellBase(f, at.x[n] - sx, at.y[n] - sy, at.z[n] - sz);
     const int o = b.offset;
-    const float a0 = p[o], a1 = p[o + 1], b0 = p[o + sj], b1 = p[o + sj + 1];
-    const float c0 = p[o + si], c1 = p[o + si + 1], d0 = p[o + si + sj], d1 = p[o + si + sj + 1];
+    const auto [a0, a1] = loadNeighbours(p, o);
+    const auto [b0, b1] = loadNeighbours(p, o + sj);
+    const auto [c0, c1] = loadNeighbours(p, o + si);
+    const auto [d0, d1] = loadNeighbours(p, o + si + sj);
     low[n] = smaller(smaller(smaller(a0, a1), smaller(b0, b1)), smaller(smaller(c0, c1), smaller(d0, d1)));
     high[n] = larger(larger(larger(a0, a1), larger(b0, b1)), larger(larger(c0, c1), larger(d0, d1)));
     const float ab = lerp(lerp(a0, a1, b.fz), lerp(b0, b1, b.fz), b.fy);
