@@ -52,8 +52,8 @@ class ShapeKeys {
     using enum ShapeKind;
     add("inner_diameter", &ShapeSpec::innerDiameter, kLength, "of the inside", {vessel});
     add("inner_height", &ShapeSpec::innerHeight, kLength, "from the inner bottom to the rim", {vessel});
-    add("wall_thickness", &ShapeSpec::wallThickness, kLength, "at least a cell, or it leaks", {vessel});
-    add("bottom_thickness", &ShapeSpec::bottomThickness, kLength, "at least a cell, or it leaks", {vessel});
+    add("wall_thickness", &ShapeSpec::wallThickness, kLength, "of its wall", {vessel});
+    add("bottom_thickness", &ShapeSpec::bottomThickness, kLength, "of its bottom", {vessel});
   }
   void addFile() {
     using enum ShapeKind;
