@@ -4,6 +4,7 @@
 
 #include "coupling/foam_objects.h"
 #include "coupling/nearest_key.h"
+#include "coupling/solid_motion.h"
 #include "coupling/toml_slot.h"
 
 namespace spume::coupling {
@@ -48,6 +49,11 @@ std::optional<Conflict> findFoamConflict(const Scene& scene) {
     return Conflict{
         "still_pool.enabled",
         "= true, but the scene has an [[inflow]]; a pool at rest takes nothing in: remove one of them"};
+  const auto isMoved = [](const SolidSpec& solid) { return moves(solid.motion); };
+  if (scene.stillPool.enabled && std::any_of(scene.solids.begin(), scene.solids.end(), isMoved))
+    return Conflict{
+        "still_pool.enabled",
+        "= true, but a [[solid]] moves, and a pool at rest does not give way: remove one of them"};
   for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i) {
     const std::string table = "bubble_source." + std::to_string(i) + ".";
     if (auto conflict = radiusConflict(table, scene.bubbleSources[i].radius)) return conflict;
