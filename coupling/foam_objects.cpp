@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "coupling/bubble_table.h"
+#include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
 #include "coupling/toml_slot.h"
@@ -16,10 +17,6 @@ constexpr int kRoomProbes = 2000;  // points that look for room in a source: fin
 
 std::string text(const Eigen::Vector3d& v) {
   return "[" + exactText(v.x()) + ", " + exactText(v.y()) + ", " + exactText(v.z()) + "]";
-}
-
-std::string labelOf(const std::string& table, const std::string& name, std::size_t item) {
-  return name.empty() ? table + " " + std::to_string(item) : table + " '" + name + "'";
 }
 
 /// The box of the domain, as the grid rounds it.
@@ -122,13 +119,13 @@ void checkFoamObjects(const Scene& scene) {
   checkBubbles(scene, domain, psi);
   for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i) {
     const BubbleSourceSpec& source = scene.bubbleSources[i];
-    const std::string object = labelOf("bubble_source", source.name, i);
+    const std::string object = objectLabel("bubble_source", source.name, i);
     checkRegion(source.shape, domain, object);
     if (!hasRoom(source.shape, domain, psi))
       throw SceneError(object + ": is inside a solid; move the source or the solid");
   }
   for (std::size_t i = 0; i < scene.bubbleKills.size(); ++i)
-    checkRegion(scene.bubbleKills[i].shape, domain, labelOf("bubble_kill", scene.bubbleKills[i].name, i));
+    checkRegion(scene.bubbleKills[i].shape, domain, objectLabel("bubble_kill", scene.bubbleKills[i].name, i));
 }
 
 }  // namespace spume::coupling

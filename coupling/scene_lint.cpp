@@ -150,7 +150,7 @@ class Linter {
     const double end = scene_.time.frames / scene_.time.fps;
     for (std::size_t i = 0; i < scene_.bubbleSources.size(); ++i)
       if (scene_.bubbleSources[i].start >= end)
-        add(Severity::note, labelOf("bubble_source", scene_.bubbleSources[i].name, i), "starts at ",
+        add(Severity::note, objectLabel("bubble_source", scene_.bubbleSources[i].name, i), "starts at ",
             scene_.bubbleSources[i].start, " s, after the last frame");
     for (std::size_t i = 0; i < scene_.nucleation.size(); ++i) lintNucleation(i);
     const double saturation = scene_.dissolvedGas.henry * scene_.dissolvedGas.pressure;
@@ -166,7 +166,7 @@ class Linter {
     for (const SolidSpec& solid : scene_.solids)
       if (solid.name == spec.solid || spec.solid.empty()) holds = std::max(holds, solid.surface.detachRadius);
     if (!scene_.dissolvedGas.enabled && holds > spec.radius.least)
-      add(Severity::warning, labelOf("nucleation", spec.name, i), "makes bubbles of radius ",
+      add(Severity::warning, objectLabel("nucleation", spec.name, i), "makes bubbles of radius ",
           spec.radius.least, " m on solids that hold them up to ", holds,
           " m, and nothing makes them grow: enable dissolved_gas or lower detach_radius");
   }

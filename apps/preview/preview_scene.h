@@ -38,10 +38,9 @@ struct PreviewScene {
   std::span<const std::uint64_t> bubbleId;  ///< sets the films' thickness; empty: the index
   std::span<const double> bubbleAge;        ///< [s]; empty: 0
   std::span<const double> bubbleShade;      ///< 0..1 for the styles contacts and pressure; empty: 0
+  std::span<const fluid::Drop> drops;       ///< liquid in flight, drawn as balls
   coupling::CameraSpec camera;              ///< eye == target: placed to show the whole box
   coupling::LookSpec look;
-  std::span<const fluid::Drop> drops;  ///< water in flight, drawn as balls
-  coupling::CameraSpec camera;         ///< eye == target: placed to show the whole box
 };
 
 /// `beauty` is as light would show it; the others are diagrams of solid bubbles: coloured by class, by the

@@ -40,6 +40,7 @@ struct Tank {
             .bubbleId = {},
             .bubbleAge = {},
             .bubbleShade = {},
+            .drops = {},
             .camera = {},
             .look = {}};
   }
