@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/commands/commands.h"
+#include "apps/commands/reproduce.h"
 #include "apps/exit_code.h"
 #include "coupling/errors.h"
 #include "fluid/errors.h"
@@ -67,6 +68,7 @@ int parseAndPerform(int argc, char** argv) {
   addInfo(program, action);
   addRender(program, action);
   addMeasure(program, action);
+  addReproduce(program, action);
   if (const std::string problem = verbProblem(program, argc, argv); !problem.empty())
     return complain(std::invalid_argument(problem), kUsage);
   try {

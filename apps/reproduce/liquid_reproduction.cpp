@@ -1,0 +1,13 @@
+#include "apps/reproduce/liquid_studies.h"
+
+namespace spume::apps {
+
+Reproduction liquidReproduction() {
+  Reproduction table{"liquid", "The liquid beside published and exact figures", {}};
+  for (const std::vector<Study>& studies :
+       {transportStudies(), restStudies(), waveStudies(), damBreakStudies(), tankStudies()})
+    table.studies.insert(table.studies.end(), studies.begin(), studies.end());
+  return table;
+}
+
+}  // namespace spume::apps

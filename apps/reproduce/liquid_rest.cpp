@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "apps/reproduce/liquid_bench.h"
+#include "apps/reproduce/liquid_studies.h"
+#include "fluid/liquid_measures.h"
+
+namespace spume::apps {
+namespace {
+
+using std::numbers::pi;
+
+/// F1: a tank about half full at random sub-cell heights.
+std::vector<ResultRow> rest(const StudyContext&) {
+  constexpr int kHeights = 10, kSteps = 500;
+  constexpr double kStep = 0.02;  // [s]; 10 s in all
+  const fluid::GridSpec grid{{24, 24, 24}, 0.16 / 24, {0, 0, 0}};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> height(0.4 * 0.16, 0.6 * 0.16);
+  double fastest = 0, shift = 0;
+  for (int n = 0; n < kHeights; ++n) {
+    const double h = height(random);
+    fluid::LiquidSolver solver({}, {grid, openTop(), {}, {}}, [h](const auto& x) { return x.y() - h; });
+    const double start = surfaceAlong(solver.state(), 1, {7, 0, 11});
+    for (int step = 0; step < kSteps; ++step) fastest = std::max(fastest, solver.step(kStep).maxSpeed);
+    shift = std::max(shift, std::abs(surfaceAlong(solver.state(), 1, {7, 0, 11}) - start) / grid.dx);
+  }
+  ResultRow speed, surface;
+  speed.resolution = surface.resolution = "24^3, 10 heights, 10 s";
+  speed.quantity = "largest speed";
+  surface.quantity = "shift of the surface";
+  speed.reference = surface.reference = "zero";
+  speed.source = surface.source = "exact";
+  return {aimAtMost(speed, fastest, 1e-8, "m/s"), aimAtMost(surface, shift, 1e-6, "dx")};
+}
+
+/// Mean velocity error of the vortex sin(kx) cos(ky) that fills a free-slip box, relative to its maximum.
+struct Vortex {
+  double error = 0, energy = 0;  ///< energy relative to the start
+};
+Vortex taylorGreen(int cells, fluid::VelocityAdvection scheme, double duration) {
+  const double k = pi;  // one vortex in the unit square
+  const fluid::GridSpec grid = slab(cells, cells, 1.0 / cells);
+  fluid::FluidParams params;
+  params.gravity.setZero();
+  params.velocityAdvection = scheme;
+  params.pressureTolerance = 1e-8;
+  const Flow flow = [k](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(std::sin(k * x.x()) * std::cos(k * x.y()),
+                           -std::cos(k * x.x()) * std::sin(k * x.y()), 0);
+  };
+  fluid::LiquidSolver solver = movingLiquid(
+      params, {grid, closedBox(), {}, {}}, [](const auto&) { return -1.0; }, flow);
+  const int steps = cells;  // CFL 0.5 for a duration of 0.5
+  for (int n = 0; n < steps; ++n) solver.step(duration / steps);
+  double error = 0, energy = 0, energy0 = 0;
+  for (int a = 0; a < 2; ++a)
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const double u = solver.state().velocity[a](i, j, 1), u0 = flow(grid.faceCentre(a, i, j, 1))[a];
+        error += std::abs(u - u0) / (2.0 * cells * cells);
+        energy += u * u;
+        energy0 += u0 * u0;
+      }
+  return {error, energy / energy0};
+}
+
+std::vector<ResultRow> vortexOrder(const StudyContext&) {
+  constexpr double kDuration = 0.5;
+  std::vector<ResultRow> rows;
+  for (const auto scheme : {fluid::VelocityAdvection::macCormack, fluid::VelocityAdvection::semiLagrangian}) {
+    const bool second = scheme == fluid::VelocityAdvection::macCormack;
+    const Vortex coarse = taylorGreen(32, scheme, kDuration), fine = taylorGreen(64, scheme, kDuration);
+    const double order = std::log2(coarse.error / fine.error);
+    const double k = pi, numerical = -std::log(fine.energy) / (4 * k * k * kDuration);
+    ResultRow loss, rate;
+    loss.resolution = rate.resolution = "32^2, 64^2";
+    loss.note = rate.note = second ? "MacCormack" : "semi-Lagrangian";
+    rate.quantity = "order of the velocity error";
+    rate.reference = second ? "second" : "first";
+    rate.source = loss.source = "exact";
+    rate.figure = order;
+    if (second) {
+      rate.aim = ">= 1.9";
+      rate.verdict = order >= 1.9 ? Verdict::met : Verdict::missed;
+    }
+    loss.quantity = "numerical viscosity at 64^2";
+    loss.reference = "zero";
+    rows.push_back(rate);
+    rows.push_back(reportOnly(loss, numerical, "m^2/s, of a vortex of 1 m and 1 m/s"));
+  }
+  return rows;
+}
+
+/// F14: a ball of water that falls for 0.1 s without touching anything.
+std::vector<ResultRow> freeFall(const StudyContext&) {
+  const fluid::GridSpec grid{{48, 64, 48}, 0.16 / 64, {0, 0, 0}};
+  const Eigen::Vector3d centre(0.061, 0.115, 0.058);
+  fluid::LiquidSolver solver({}, {grid, closedBox(), {}, {}},
+                             [&](const Eigen::Vector3d& x) { return (x - centre).norm() - 0.02; });
+  const double volume0 = solver.liquidVolume(), potential0 = solver.step(0).potentialEnergy;
+  fluid::LiquidStepReport last;
+  constexpr int kSteps = 20;
+  for (int n = 0; n < kSteps; ++n) last = solver.step(0.1 / kSteps);
+  const double g = 9.8,
+               fallen = (potential0 - last.potentialEnergy) / (solver.params().density * g * volume0);
+  ResultRow place, volume;
+  place.resolution = volume.resolution = "radius 8 dx";
+  place.quantity = "error of the centroid";
+  volume.quantity = "change of the volume";
+  place.reference = volume.reference = "zero";
+  place.source = volume.source = "exact";
+  return {aimAtMost(place, (fallen - 0.5 * g * 0.01) / grid.dx, 0.1, "dx"),
+          aimAtMost(volume, 100 * (solver.liquidVolume() / volume0 - 1), 0.5, "%")};
+}
+
+}  // namespace
+
+std::vector<Study> restStudies() {
+  return {{"F1", "hydrostatic rest", 120, rest},
+          {"F4", "Taylor-Green vortex, inviscid", 30, vortexOrder},
+          {"F14", "free-falling ball of water", 15, freeFall}};
+}
+
+}  // namespace spume::apps

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/reproduce/reproduction.h"
+
+namespace spume::apps {
+
+// The studies of the liquid's table, by what they exercise.
+std::vector<Study> transportStudies();  ///< surfaces carried by given velocities
+std::vector<Study> restStudies();       ///< rest, free fall, vortices
+std::vector<Study> waveStudies();       ///< standing waves
+std::vector<Study> damBreakStudies();   ///< collapsing columns beside measurements
+std::vector<Study> tankStudies();       ///< a tank with an obstacle, a box being filled
+
+}  // namespace spume::apps

@@ -1,0 +1,10 @@
+#include "apps/reproduce/reproduction.h"
+
+namespace spume::apps {
+
+const std::vector<Reproduction>& reproductions() {
+  static const std::vector<Reproduction> kAll{liquidReproduction()};
+  return kAll;
+}
+
+}  // namespace spume::apps
