@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/commands/commands.h"
+#include "apps/commands/reproduce.h"
 #include "apps/exit_code.h"
 #include "coupling/errors.h"
 #include "fluid/errors.h"

@@ -105,11 +105,8 @@ void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary
                              std::span<const Eigen::Vector3i> vents) {
   outside_.assign(count_.size(), 0);
   bool sealed = true;
-  for (const Eigen::Vector3i& c : vents) {
-    if (label_(c) < 0) continue;
-    outside_[label_(c)] = 1;
-    sealed = false;
-  }
+  for (const Eigen::Vector3i& c : vents)
+    if (label_(c) >= 0) outside_[label_(c)] = 1;
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3, d = (a + 2) % 3;
     Eigen::Vector3i c, face;

@@ -57,7 +57,7 @@ void LiquidStages::start() {
 }
 
 void LiquidStages::startPockets() {
-  findPockets();
+  findPockets(state.time);
   pocketBooks.update(pockets, state.velocity, 0);
   state.volume = volumeControl.ledger();
   state.volume.pocketGas = pocketBooks.gas();
@@ -67,7 +67,7 @@ void LiquidStages::resumeControl() {
   inflows.stamp(state.time, 0, state.phi, solids);
   bodies.find(state.grid, state.phi, solids);
   volumeControl.resume(bodies, state.volume);
-  findPockets();
+  findPockets(state.time);
   pocketBooks.resume(pockets, state.volume.pocketGas);
 }
 
@@ -158,13 +158,13 @@ void LiquidStages::reseed() {
 }
 
 /// The pockets that are too large to be filled.
-void LiquidStages::findPockets() {
-  pockets.find(state.grid, state.phi, solids);
+void LiquidStages::findPockets(double t) {
+  pockets.find(state.grid, state.phi, solids, outflows.openCells(t));
   pockets.dropSmall();
 }
 
-void LiquidStages::fillPockets() {
-  pockets.find(state.grid, state.phi, solids);
+void LiquidStages::fillPockets(double dt) {
+  pockets.find(state.grid, state.phi, solids, outflows.openCells(state.time + dt));
   const auto filled = pockets.fillSmall(state.grid, solids, state.velocity, state.phi);
   collapsePockets(state.grid, filled, sorter, cellMark, state.positive, collapsed);
   pocketsChange = !filled.empty() || !setup.inflows.empty();
@@ -176,7 +176,7 @@ void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& rep
   extension.apply(state.phi);
   bodies.find(state.grid, state.phi, solids);
   volumeControl.update(bodies, state.velocity, dt, poured, gas);
-  if (pocketsChange) findPockets();
+  if (pocketsChange) findPockets(state.time + dt);
   pocketBooks.update(pockets, state.velocity, dt);
 }
 
@@ -225,7 +225,7 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("drops", [&] { moveDrops(dt, report); });
   clock.time("correction", [&] { correctSurface(); });
   clock.time("reseed", [&] { reseed(); });
-  clock.time("pockets", [&] { fillPockets(); });
+  clock.time("pockets", [&] { fillPockets(dt); });
   clock.time("inflow", [&] { pour(dt, gas, report); });
   clock.time("advection", [&] { moveVelocity(dt); });
   if (params.viscosity > 0) clock.time("viscosity", [&] { applyViscosity(dt); });

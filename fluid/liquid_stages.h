@@ -76,8 +76,8 @@ struct LiquidStages {
   void loseMarkers(double dt);
   void moveDrops(double dt, LiquidStepReport& report);
   void reseed();
-  void findPockets();
-  void fillPockets();
+  void findPockets(double t);
+  void fillPockets(double dt);
   void pour(double dt, const ImmersedGas& gas, LiquidStepReport& report);
   void moveVelocity(double dt);
   void applyViscosity(double dt);

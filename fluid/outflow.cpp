@@ -71,6 +71,14 @@ void OutflowSet::takeMarkers(const Outflow& outflow, MarkerSet& negative) const 
   }
 }
 
+std::vector<Eigen::Vector3i> OutflowSet::openCells(double t) const {
+  std::vector<Eigen::Vector3i> cells;
+  for (std::size_t n = 0; n < outflows_.size(); ++n)
+    if (outflows_[n].free && isOpen(n, t))
+      cells.insert(cells.end(), regions_[n].interior.begin(), regions_[n].interior.end());
+  return cells;
+}
+
 double OutflowSet::pump(double t, double dt, const DenseField<float>& phi, const SolidBoundary& boundary,
                         DenseField<float>& divergenceSource, VolumeControl& books) const {
   double taken = 0;

@@ -43,6 +43,9 @@ class OutflowSet {
   double pump(double t, double dt, const DenseField<float>& phi, const SolidBoundary& boundary,
               DenseField<float>& divergenceSource, VolumeControl& books) const;
 
+  /// Cells of the free regions that are open at time t: air that holds one is open air, however small.
+  std::vector<Eigen::Vector3i> openCells(double t) const;
+
  private:
   struct Cell {
     Eigen::Vector3i cell;

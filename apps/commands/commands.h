@@ -14,6 +14,5 @@ void addCheck(CLI::App& program, Action& action);
 void addInfo(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);
 void addMeasure(CLI::App& program, Action& action);
-void addReproduce(CLI::App& program, Action& action);
 
 }  // namespace spume::apps

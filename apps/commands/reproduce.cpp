@@ -1,3 +1,5 @@
+#include "apps/commands/reproduce.h"
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <memory>
 
-#include "apps/commands/commands.h"
 #include "apps/exit_code.h"
 #include "apps/reproduce/reproduction.h"
 #include "coupling/atomic_file.h"

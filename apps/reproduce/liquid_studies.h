@@ -11,7 +11,7 @@ std::vector<Study> transportStudies();  ///< surfaces carried by given velocitie
 std::vector<Study> restStudies();       ///< rest, free fall, vortices
 std::vector<Study> waveStudies();       ///< standing waves, with and without viscosity
 std::vector<Study> damBreakStudies();   ///< collapsing columns beside measurements
-std::vector<Study> tankStudies();       ///< a tank with an obstacle, a box being filled
 std::vector<Study> tensionStudies();    ///< drops held together by surface tension
+std::vector<Study> tankStudies();       ///< a tank with an obstacle, a box being filled
 
 }  // namespace spume::apps

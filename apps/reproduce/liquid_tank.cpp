@@ -66,10 +66,9 @@ std::vector<ResultRow> boxInTank(const StudyContext&) {
   h4.reference = ".426, .277, .147 m; interFoam 1.8 %";
   top.reference = ".341 m";
   arrival.reference = "1.787 s";
-  top.figure = 100 * (peak / kLargest2 - 1);
-  top.unit = "%";
   return {aimAtMost(h2, 100 * error2 / kLargest2, 4, "%"), aimAtMost(h4, 100 * error4 / kLargest4, 4, "%"),
-          top, aimAtMost(arrival, 100 * (peakTime / 1.787 - 1), 3, "%")};
+          reportOnly(top, 100 * (peak / kLargest2 - 1), "%"),
+          aimAtMost(arrival, 100 * (peakTime / 1.787 - 1), 3, "%")};
 }
 
 /// F12: a nozzle of 2 cm fills a box of 16 cm at 0.5 m/s.
@@ -89,13 +88,12 @@ std::vector<ResultRow> filling(const StudyContext&) {
   fluid::LiquidSolver solver({}, {{{kCells, kCells, kCells}, dx, {0, 0, 0}}, openTop(), {}, {nozzle}},
                              [](const auto& x) { return x.y() - 0.04; });
   const double start = solver.liquidVolume();
-  double poured = 0, worst = 0, flying = 0;
+  double poured = 0, worst = 0;
   while (solver.state().time < kDuration) {
     const fluid::LiquidStepReport report = solver.step(0.01);
     poured += report.poured;
-    flying = report.dropVolume;
     if (solver.state().time > 1)
-      worst = std::max(worst, std::abs(report.liquidVolume + flying - start - poured));
+      worst = std::max(worst, std::abs(report.liquidVolume + report.dropVolume - start - poured));
   }
   ResultRow flux, volume;
   flux.resolution = volume.resolution = "40^3, 5 s";

@@ -92,7 +92,7 @@ std::vector<ResultRow> staticDrop(const StudyContext&) {
   r.reference = "0; balanced VOF machine zero (Popinet 2009)";
   r.source = "exact";
   r.note = "after a quarter of the viscous time";
-  return {aimAtMost(r, params.viscosity * report.maxSpeed / kSigma, 1e-4, "-")};
+  return {aimAtMost(r, params.viscosity * report.maxSpeed / kSigma, 1e-4, "")};
 }
 
 }  // namespace

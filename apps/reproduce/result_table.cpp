@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "coupling/errors.h"
 
@@ -14,6 +15,7 @@ constexpr char kHeader[] =
     "study,title,resolution,quantity,figure,unit,reference,source,aim,verdict,seconds,note";
 constexpr std::size_t kFields = 12;
 constexpr const char* kVerdicts[] = {"met", "missed", "-"};
+constexpr const char* kAnswers[] = {"yes", "**no**", "-"};
 
 /// Four significant digits: what a person compares. The CSV holds all of them.
 std::string shortText(double value) {
@@ -29,15 +31,16 @@ std::string exactText(double value) {
 }
 
 std::string withUnit(const std::string& value, const std::string& unit) {
-  return unit.empty() || unit == "-" ? value : value + " " + unit;
+  return unit.empty() ? value : value + " " + unit;
 }
 
 /// A field of CSV: quoted where it holds a comma or a quote.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  std::string quoted(1, '"');
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
 }
 
 std::vector<std::string> fieldsOf(const std::string& line) {
@@ -70,8 +73,15 @@ ResultRow rowOf(const std::vector<std::string>& f) {
 ResultRow& aimAtMost(ResultRow& row, double figure, double limit, const std::string& unit) {
   row.figure = figure;
   row.unit = unit;
-  row.aim = "<= " + withUnit(shortText(limit), unit);
+  row.aim = "<= ";
+  row.aim += withUnit(shortText(limit), unit);
   row.verdict = std::abs(figure) <= limit ? Verdict::met : Verdict::missed;  // NaN misses
+  return row;
+}
+
+ResultRow& reportOnly(ResultRow& row, double figure, const std::string& unit) {
+  row.figure = figure;
+  row.unit = unit;
   return row;
 }
 
@@ -118,21 +128,19 @@ std::string ResultTable::csv() const {
 }
 
 std::string ResultTable::markdown() const {
-  std::string text = "# " + title_ +
-                     "\n\n| case | resolution | figure | ours | reference | aim | met | s |\n" +
-                     "|---|---|---|---|---|---|---|---|\n";
+  std::ostringstream text;
+  text << "# " << title_ << "\n\n| case | resolution | figure | ours | reference | aim | met | s |\n"
+       << "|---|---|---|---|---|---|---|---|\n";
   for (const ResultRow& r : rows_) {
-    text += "| " + r.study + " " + r.title + " | " + r.resolution + " | " + r.quantity +
-            (r.note.empty() ? "" : " (" + r.note + ")") + " | " + withUnit(shortText(r.figure), r.unit) +
-            " | " + r.reference + (r.source.empty() ? "" : " [" + r.source + "]") + " | " +
-            (r.aim.empty() ? "report" : r.aim) + " | " +
-            (r.verdict == Verdict::met      ? "yes"
-             : r.verdict == Verdict::missed ? "**no**"
-                                            : "-") +
-            " | " + shortText(r.seconds) + " |\n";
+    text << "| " << r.study << ' ' << r.title << " | " << r.resolution << " | " << r.quantity;
+    if (!r.note.empty()) text << " (" << r.note << ')';
+    text << " | " << withUnit(shortText(r.figure), r.unit) << " | " << r.reference;
+    if (!r.source.empty()) text << " [" << r.source << ']';
+    text << " | " << (r.aim.empty() ? "report" : r.aim) << " | " << kAnswers[static_cast<int>(r.verdict)]
+         << " | " << shortText(r.seconds) << " |\n";
   }
-  return text + "\n" + std::to_string(count(Verdict::met)) + " aims met, " +
-         std::to_string(count(Verdict::missed)) + " missed.\n";
+  text << '\n' << count(Verdict::met) << " aims met, " << count(Verdict::missed) << " missed.\n";
+  return text.str();
 }
 
 void ResultTable::readCsv(const std::string& text, const std::string& path) {
@@ -153,10 +161,11 @@ void ResultTable::readCsv(const std::string& text, const std::string& path) {
 }
 
 std::string summaryOf(const ResultRow& row) {
-  std::string text = row.study + " " + row.title + ", " + row.resolution + ": " + row.quantity + " " +
-                     withUnit(shortText(row.figure), row.unit);
-  if (!row.aim.empty()) text += " (" + row.aim + ": " + kVerdicts[static_cast<int>(row.verdict)] + ")";
-  return text;
+  std::ostringstream text;
+  text << row.study << ' ' << row.title << ", " << row.resolution << ": " << row.quantity << ' '
+       << withUnit(shortText(row.figure), row.unit);
+  if (!row.aim.empty()) text << " (" << row.aim << ": " << kVerdicts[static_cast<int>(row.verdict)] << ')';
+  return text.str();
 }
 
 }  // namespace spume::apps
