@@ -80,7 +80,7 @@ void Probes::Internals::readGauge(const ProbeSpec& probe, const VdbLiquidSampler
   Eigen::VectorXd phi(steps + 1), psi(steps + 1);
   fields.phi(points, phi);
   fields.psi(points, psi);
-  phi = phi.cwiseMax(-psi);
+  for (int n = 0; n <= steps; ++n) phi[n] = std::max(phi[n], -psi[n]);
   double surface = 0, wet = 0;
   for (int n = 0; n < steps; ++n) {
     const double low = phi[n], high = phi[n + 1];

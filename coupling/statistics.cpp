@@ -57,7 +57,7 @@ std::string probeHeader(const std::vector<ColumnInfo>& probes) {
 
 std::string probeRow(const StepReport& report) {
   std::string row = std::to_string(report.step) + "," + exactText(report.time);
-  for (const double value : report.probes) row += "," + exactText(value);
+  for (const double value : report.probes) row.append(",").append(exactText(value));
   return row;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "foam/parallel.h"
@@ -18,6 +19,15 @@ constexpr int kRefinements = 5;
 constexpr double kAim = 0.9, kSinglePrecision = 1e-7;
 /// A pass that does not bring the residual below this share of the last has met round-off.
 constexpr double kStalled = 0.5;
+/// A residual that rounding keeps above the goal is taken up to this share of the right-hand side.
+constexpr double kLargestRoundOff = 1e-4;
+/// Rounding of a row's sum, in units of its largest term: a dozen operations of half an ulp each.
+constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
+
+double lengthOf(const Vectors3& v) {
+  return std::sqrt(reduceIndices(
+      v.size(), 0.0, [&](std::size_t i) { return v[i].squaredNorm(); }, std::plus<>()));
+}
 
 }  // namespace
 
@@ -26,6 +36,13 @@ double ImplicitSolve::residual(const BlockSystem& a, const Vectors3& b, const Ve
   forEachIndex(a.size(), [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
   return std::sqrt(reduceIndices(
       a.size(), 0.0, [&](std::size_t i) { return residual_[i].squaredNorm(); }, std::plus<>()));
+}
+
+double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {
+  return kRoundOff *
+         std::sqrt(reduceIndices(
+             a.size(), 0.0, [&](std::size_t i) { return (a.diagonal(i).norm() * x[i]).squaredNorm(); },
+             std::plus<>()));
 }
 
 SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
@@ -43,12 +60,15 @@ SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, d
   const bool iterative = solver_ != LinearSolver::cholmod;
   if (iterative) report.iterations = iterate(a, b, goal, maxIterations, x);
   double norm = iterative ? residual(a, b, x) : first;
-  if (!(norm <= goal)) {
+  const auto reached = [&] {
+    return norm <= std::max(goal, std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b)));
+  };
+  if (!reached()) {
     report.fellBack = solveDirectly(a, b, goal, x) && iterative;
     norm = residual(a, b, x);
   }
   report.residual = norm / first;
-  report.converged = norm <= goal;
+  report.converged = reached();
   shiftRigidly(a, x);
   return report;
 }

@@ -22,6 +22,9 @@ class ImplicitSolve {
   explicit ImplicitSolve(LinearSolver solver = LinearSolver::pcgIncompleteCholesky) : solver_(solver) {}
 
   /// |b - A x| [kg m/s].
+  /// What rounding alone leaves of the residual: a pinned bubble's block is a million times stiffer than the
+  /// rest.
+  static double roundOff(const BlockSystem& a, const Vectors3& x);
   double residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
 
   /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. An iteration that does not get there

@@ -66,14 +66,14 @@ TEST(FoamFaults, AStepMustBePositiveAndFinite) {
     expectRefusal<InvalidParameter>(threeBubbles(), pool, dt, "dt");
 }
 
-TEST(FoamFaults, ASolveThatDoesNotConvergeIsReported) {
+TEST(FoamFaults, ASolveThatRunsOutOfIterationsIsTakenOverByTheDirectSolverAndSaysSo) {
   FoamParams params = makePreset(Preset::physical);
   params.solverIterations = 1, params.solverTolerance = 1e-12;
   FoamSolver solver(params);
   BubbleStore bubbles = threeBubbles();
-  const Eigen::Vector3d before = bubbles.position[0];
-  EXPECT_THROW(solver.step(bubbles, openPool(params), 0.01), NumericalFailure);
-  EXPECT_EQ(bubbles.position[0], before);
+  const FoamStepReport report = solver.step(bubbles, openPool(params), 0.01);
+  EXPECT_TRUE(report.solverFellBack);
+  EXPECT_TRUE(bubbles.position[0].allFinite());
 }
 
 TEST(FoamFaults, EveryParameterOutOfRangeIsNamed) {

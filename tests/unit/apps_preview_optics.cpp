@@ -255,6 +255,7 @@ TEST(BubbleShade, CountsContactsAndWeighsPushes) {
     foam::NewBubble bubble;
     bubble.position = {b * d + (b == 2 ? 1 : 0), 0, 0};
     bubble.radius = r;
+    bubble.wetness = 0.6;
     bubbles.add(bubble);
   }
   const foam::FoamParams params = foam::makePreset(foam::Preset::physical);
