@@ -143,7 +143,7 @@ void DiscClipper::keepEdges() {
     for (auto* column : {&lines_.ux, &lines_.uy, &lines_.offset, &lines_.shift, &lines_.t1, &lines_.t2})
       (*column)[kept] = (*column)[k];
     const bool isLeft = lines_.t2[k] > lines_.t1[k];
-    closed_ &= !isLeft | ((lines_.t1[k] > -lines_.half[k]) & (lines_.t2[k] < lines_.half[k]));
+    closed_ &= (!isLeft) | ((lines_.t1[k] > -lines_.half[k]) & (lines_.t2[k] < lines_.half[k]));
     kept += isLeft;
   }
   lines_.count = kept;
