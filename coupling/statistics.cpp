@@ -56,7 +56,8 @@ std::string probeHeader(const std::vector<ColumnInfo>& probes) {
 }
 
 std::string probeRow(const StepReport& report) {
-  std::string row = std::to_string(report.step) + "," + exactText(report.time);
+  std::string row = std::to_string(report.step);
+  row.append(",").append(exactText(report.time));
   for (const double value : report.probes) row.append(",").append(exactText(value));
   return row;
 }

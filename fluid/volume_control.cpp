@@ -98,15 +98,16 @@ double VolumeControl::bookOutflow(const DenseField<float>& phi, const SolidBound
   return drained;
 }
 
+double VolumeControl::take(std::int32_t body, double volume) {
+  double& target = body >= 0 ? ledger_.target[body] : ledger_.unassigned;
+  const double taken = std::clamp(volume, 0.0, std::max(0.0, target));
+  target -= taken;
+  return taken;
+}
+
 double VolumeControl::bookDrained(const Eigen::Vector3i& cell, double volume) {
-  std::int32_t body = lastLabel_(cell);
-  if (body < 0)
-    body =
-        largestNear(grid_, lastLabel_, lastBodies_, grid_.cellCentre(cell.x(), cell.y(), cell.z()), kNearby);
-  double& target = body < 0 ? ledger_.unassigned : ledger_.target[body];
-  const double out = std::min(target, volume);
-  target -= out;
-  return out;
+  const std::int32_t own = lastLabel_(cell);
+  return take(own >= 0 ? own : lastBodyNear(grid_.cellCentre(cell.x(), cell.y(), cell.z())), volume);
 }
 
 std::int32_t VolumeControl::lastBodyNear(const Eigen::Vector3d& x) const {
@@ -115,11 +116,7 @@ std::int32_t VolumeControl::lastBodyNear(const Eigen::Vector3d& x) const {
 }
 
 double VolumeControl::withdraw(const Eigen::Vector3d& x, double volume) {
-  const std::int32_t body = lastBodyNear(x);
-  double& target = body >= 0 ? ledger_.target[body] : ledger_.unassigned;
-  const double taken = std::clamp(volume, 0.0, std::max(0.0, target));
-  target -= taken;
-  return taken;
+  return take(lastBodyNear(x), volume);
 }
 
 void VolumeControl::deposit(const Eigen::Vector3d& x, double volume) {

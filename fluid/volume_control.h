@@ -69,6 +69,9 @@ class VolumeControl {
   void findGroups(const LiquidBodies& bodies);
   void bookGas(const LiquidBodies& bodies, const ImmersedGas& gas);
   void dealTargets(const LiquidBodies& bodies);
+  /// Subtracts up to `volume` [m^3] from the target of a body, of the unassigned liquid if it is negative;
+  /// returns it.
+  double take(std::int32_t body, double volume);
   std::int32_t lastBodyNear(const Eigen::Vector3d& x) const;
   std::int32_t group(std::int32_t node);
   void unite(std::int32_t a, std::int32_t b);

@@ -76,6 +76,12 @@ TEST(FoamFaults, ASolveThatRunsOutOfIterationsIsTakenOverByTheDirectSolverAndSay
   EXPECT_TRUE(bubbles.position[0].allFinite());
 }
 
+/// A step so long that its square overflows leaves no solver a chance.
+TEST(FoamFaults, ASolveThatDoesNotConvergeIsReportedAndChangesNothing) {
+  const StillPool pool = openPool(makePreset(Preset::physical));
+  expectRefusal<NumericalFailure>(threeBubbles(), pool, 1e200, "did not converge");
+}
+
 TEST(FoamFaults, EveryParameterOutOfRangeIsNamed) {
   const auto refused = [](auto change, const char* name) {
     FoamParams params;

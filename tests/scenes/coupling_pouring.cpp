@@ -16,14 +16,14 @@ constexpr double kLedgerTolerance = 1e-12;
 
 /// Relative to initial + poured. The scene's aim is 0.01 at 64^3; the jet's losses, which volume control
 /// follows with a delay, grow as dx.
-constexpr double kVolumeTolerance = 0.02;
+constexpr double kVolumeTolerance = 0.01;
 
 /// Deepest overlap with a wall that the one-sided contact spring leaves, in radii.
 constexpr double kWallTolerance = 0.1;
 
 /// A bubble that arrives goes from liquid to surface; where the jet tears the surface it goes back and forth.
 constexpr int kFewClassChanges = 8;
-/// Share of the bubbles that may change more often, from runs at 32^3 (0.22).
+/// Share of the bubbles that may change more often, from runs at 32^3 (0.22 to 0.29).
 constexpr double kRestlessShare = 0.3;
 /// A jet that entrains nothing is broken; runs at 32^3 give 400 to 2000.
 constexpr std::size_t kFewestBirths = 100;

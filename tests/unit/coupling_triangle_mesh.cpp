@@ -43,7 +43,7 @@ std::string boxObj(int faces = 6) {
   }
   for (int f = 0; f < faces; ++f) {
     text += "f";
-    for (const int n : kFaces[f]) text += " " + std::to_string(n + 1) + "/1/1";
+    for (const int n : kFaces[f]) text.append(" ").append(std::to_string(n + 1)).append("/1/1");
     text += "\n";
   }
   return text;
@@ -67,7 +67,7 @@ std::string boxPly(bool binary) {
       for (const int n : face) put(std::int32_t{n});
     } else {
       text += "4";
-      for (const int n : face) text += " " + std::to_string(n);
+      for (const int n : face) text.append(" ").append(std::to_string(n));
       text += "\n";
     }
   }

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "fluid/level_set.h"
 #include "fluid/viscosity.h"
 #include "tests/support/fluid_fields.h"
 
@@ -30,6 +32,26 @@ struct Stage {
 };
 
 DenseField<float> full(const GridSpec& grid) { return DenseField<float>(grid.cells, -1.0f); }
+
+/// Channel between two walls that hold the liquid: sin(pi y) is an eigenvector of the discrete operator, its
+/// eigenvalue 4/dx^2 sin^2(pi dx/2). The open ends are free of shear, which the flow is not: what they do to
+/// it falls by nu dt/dx^2 = 0.1 a cell, so that it is below the tolerance from kEnd cells on.
+TEST(Viscosity, AChannelDecaysAtTheDiscreteRate) {
+  constexpr int kEnd = 6;
+  constexpr double kKinematic = 0.02;
+  Stage stage(16, {{false, false, true, true, false, false}}, kKinematic);
+  MacVelocity u =
+      macField(stage.grid, [](const auto& x) { return Eigen::Vector3d(std::sin(pi * x.y()), 0, 0); });
+  const MacVelocity u0 = u;
+  stage.apply(full(stage.grid), u);
+  const double dx = stage.grid.dx, rate = 4 / (dx * dx) * std::pow(std::sin(0.5 * pi * dx), 2);
+  const double factor = 1 / (1 + kDt * kKinematic * rate);
+  forEachInner(stage.grid.cells, 0, [&](int i, int j, int k) {
+    if (std::min({i, 15 - i, k, 15 - k}) < kEnd) return;
+    EXPECT_NEAR(u[0](i, j, k), factor * u0[0](i, j, k), kFloat);
+    EXPECT_NEAR(u[1](i, j, k), 0, kFloat);
+  });
+}
 
 /// With free slip the vortex sin(pi x) cos(pi y) keeps its shape between walls: sum of two such eigenvalues.
 TEST(Viscosity, AVortexBetweenSlippingWallsDecaysAtTheDiscreteRate) {
@@ -61,6 +83,35 @@ TEST(Viscosity, LeavesRigidMotionAlone) {
   for (int a = 0; a < 3; ++a)
     forEachInner(stage.grid.cells, 0,
                  [&](int i, int j, int k) { EXPECT_NEAR(u[a](i, j, k), u0[a](i, j, k), 3 * kFloat); });
+}
+
+/// Stress acts between parts of the liquid only: the momentum of a free blob stays, its energy falls.
+TEST(Viscosity, KeepsTheMomentumOfAFreeBody) {
+  Stage stage(20, openWalls(), 0.2);
+  const auto phi =
+      levelSet(stage.grid, [](const auto& x) { return (x.array() - 0.5).abs().maxCoeff() - 0.3; });
+  MacVelocity u = macField(stage.grid, [](const auto& x) {
+    return Eigen::Vector3d(std::sin(9 * x.y()), std::cos(7 * x.x()), x.x() * x.y());
+  });
+  // The liquid of the control volume of each face.
+  DenseField<float> fraction(stage.grid.cells);
+  computeLiquidFraction(phi, stage.solids, static_cast<float>(stage.grid.dx), fraction);
+  const auto sums = [&](const MacVelocity& v) {
+    std::array<double, 4> sum{};
+    for (int a = 0; a < 3; ++a)
+      forEachInner(stage.grid.cells, 1, [&](int i, int j, int k) {
+        const Eigen::Vector3i c(i, j, k);
+        const double mass = 0.5 * (fraction(c) + fraction(c - Eigen::Vector3i::Unit(a)));
+        sum[a] += mass * v[a](c);
+        sum[3] += mass * v[a](c) * v[a](c);
+      });
+    return sum;
+  };
+  const auto before = sums(u);
+  stage.apply(phi, u);
+  const auto after = sums(u);
+  for (int a = 0; a < 3; ++a) EXPECT_NEAR(after[a], before[a], 1e-4 * std::sqrt(before[3] * 1728));
+  EXPECT_LT(after[3], 0.9 * before[3]);
 }
 
 TEST(Viscosity, OneAndFourThreadsGiveTheSameBits) {
