@@ -56,10 +56,10 @@ std::string probeHeader(const std::vector<ColumnInfo>& probes) {
 }
 
 std::string probeRow(const StepReport& report) {
-  std::string row = std::to_string(report.step);
-  row.append(",").append(exactText(report.time));
-  for (const double value : report.probes) row.append(",").append(exactText(value));
-  return row;
+  std::ostringstream row;
+  row << report.step << ',' << exactText(report.time);
+  for (const double value : report.probes) row << ',' << exactText(value);
+  return row.str();
 }
 
 /// Every stage either module timed, in their order, with what is added for each.
