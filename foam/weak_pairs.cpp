@@ -5,10 +5,14 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "foam/ball_checks.h"
 #include "foam/cell_hash.h"
+#include "foam/convex_cell.h"
 #include "foam/disc_clipper.h"
 #include "foam/radical_plane.h"
 
@@ -22,162 +26,255 @@ using Eigen::Vector3d;
 /// first.
 constexpr double kCellsPerRange = 6;
 
-struct Site {
-  Vector3d position;
-  TieBrokenBall ball;
-  std::int32_t index;
-};
+/// Nearness of a site at the bubble's own place: before all others.
+constexpr double kFirst = -1e300;
 
 /// All bubbles, sorted by grid cell.
 class SiteGrid {
  public:
+  struct Site {
+    Vector3d position;
+    TieBrokenBall ball;
+    std::int32_t index;
+  };
+  using Cell = std::array<std::int64_t, 3>;
+
   SiteGrid(const std::vector<Vector3d>& position, const std::vector<double>& radius,
            const std::vector<std::uint64_t>& id, double cellSize)
       : cellSize_(cellSize) {
     std::vector<std::pair<std::uint64_t, std::int32_t>> keys(position.size());
+    low_.fill(std::numeric_limits<std::int64_t>::max()), high_.fill(std::numeric_limits<std::int64_t>::min());
     for (std::size_t i = 0; i < position.size(); ++i) {
-      keys[i].second = static_cast<std::int32_t>(i);
+      const Cell cell = cellOf(position[i]);
+      keys[i] = {keyOf(cell), static_cast<std::int32_t>(i)};
       for (int axis = 0; axis < 3; ++axis)
-        keys[i].first |= spreadCellBits(coordinate(position[i][axis])) << axis;
+        low_[axis] = std::min(low_[axis], cell[axis]), high_[axis] = std::max(high_[axis], cell[axis]);
       maxRadius_ = std::max(maxRadius_, radius[i]);
     }
     tbb::parallel_sort(keys.begin(), keys.end());
     cells_ = CellHash(keys);
-    for (const auto& [key, i] : keys) sites_.push_back({position[i], {radius[i], id[i]}, i});
+    for (const auto& [key, i] : keys) {
+      if (sites_.empty() || cellOf(position[i]) != cellOf(sites_.back().position))
+        runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
+      sites_.push_back({position[i], {radius[i], id[i]}, i});
+    }
+    runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
   }
 
   double cellSize() const { return cellSize_; }
   double maxRadius() const { return maxRadius_; }
   const std::vector<Site>& sites() const { return sites_; }
+  /// First site of each cell that is not empty, then the number of sites.
+  const std::vector<std::int32_t>& runStart() const { return runStart_; }
 
   /// Calls visit(site) for all sites whose cell is `ring` cells from that of x, in the largest coordinate.
   template <typename Visit>
   void visitRing(const Vector3d& x, std::int64_t ring, const Visit& visit) const {
-    const std::int64_t cx = coordinate(x.x()), cy = coordinate(x.y()), cz = coordinate(x.z());
-    for (std::int64_t z = -ring; z <= ring; ++z)
-      for (std::int64_t y = -ring; y <= ring; ++y) {
-        const bool face = std::abs(z) == ring || std::abs(y) == ring;
-        const std::uint64_t part = spreadCellBits(cy + y) << 1 | spreadCellBits(cz + z) << 2;
-        for (std::int64_t k = -ring; k <= ring; k += face ? 1 : std::max<std::int64_t>(1, 2 * ring)) {
-          const CellHash::Run& run = cells_[part | spreadCellBits(cx + k)];
-          for (std::int32_t s = run.begin; s < run.end; ++s) visit(sites_[s]);
-        }
+    const Cell centre = cellOf(x);
+    Cell cell;
+    for (cell[2] = from(centre, 2, ring); cell[2] <= to(centre, 2, ring); ++cell[2])
+      for (cell[1] = from(centre, 1, ring); cell[1] <= to(centre, 1, ring); ++cell[1]) {
+        const bool face =
+            std::abs(cell[2] - centre[2]) == ring || std::abs(cell[1] - centre[1]) == ring || ring == 0;
+        if (face)
+          for (cell[0] = from(centre, 0, ring); cell[0] <= to(centre, 0, ring); ++cell[0])
+            visitCell(cell, visit);
+        else
+          for (cell[0] = centre[0] - ring; cell[0] <= centre[0] + ring; cell[0] += 2 * ring)
+            visitCell(cell, visit);
       }
+  }
+  /// Whether all sites lie within that many rings of the cell of x.
+  bool endsWithin(const Vector3d& x, std::int64_t ring) const {
+    const Cell centre = cellOf(x);
+    for (int axis = 0; axis < 3; ++axis)
+      if (centre[axis] - ring > low_[axis] || centre[axis] + ring < high_[axis]) return false;
+    return true;
   }
 
  private:
-  std::int64_t coordinate(double x) const { return cellCoordinate(x, cellSize_); }
+  Cell cellOf(const Vector3d& x) const {
+    return {cellCoordinate(x[0], cellSize_), cellCoordinate(x[1], cellSize_),
+            cellCoordinate(x[2], cellSize_)};
+  }
+  static std::uint64_t keyOf(const Cell& cell) {
+    return spreadCellBits(cell[0]) | spreadCellBits(cell[1]) << 1 | spreadCellBits(cell[2]) << 2;
+  }
+  std::int64_t from(const Cell& centre, int axis, std::int64_t ring) const {
+    return std::max(centre[axis] - ring, low_[axis]);
+  }
+  std::int64_t to(const Cell& centre, int axis, std::int64_t ring) const {
+    return std::min(centre[axis] + ring, high_[axis]);
+  }
+  template <typename Visit>
+  void visitCell(const Cell& cell, const Visit& visit) const {
+    const CellHash::Run& run = cells_[keyOf(cell)];
+    for (std::int32_t s = run.begin; s < run.end; ++s) visit(sites_[s]);
+  }
 
   double cellSize_, maxRadius_ = 0;
+  Cell low_, high_;  ///< of the cells that are not empty
   CellHash cells_;
   std::vector<Site> sites_;
+  std::vector<std::int32_t> runStart_;
 };
 
-/// Builds the inflated power cell of one bubble from the nearest sites outwards and keeps those that share a
-/// face with it. A site whose plane misses the cell of the sites before it can never matter again. One per
-/// thread.
+/// The sites around one cell of the grid, nearest rings first, gathered as far as they are asked for: what is
+/// near one bubble of the cell is near all. One per thread.
+class Vicinity {
+ public:
+  std::vector<double> x, y, z, radius;  ///< [m], padded
+  std::vector<const SiteGrid::Site*> site;
+
+  void moveTo(const SiteGrid& grid, const Vector3d& centre) {
+    grid_ = &grid, centre_ = centre;
+    site.clear(), ringEnd_.clear();
+  }
+  /// One past the last site of the ring.
+  std::size_t endOf(std::int64_t ring) {
+    while (static_cast<std::int64_t>(ringEnd_.size()) <= ring) gatherRing();
+    return ringEnd_[ring];
+  }
+
+ private:
+  void gatherRing() {
+    const std::size_t first = site.size();
+    grid_->visitRing(centre_, static_cast<std::int64_t>(ringEnd_.size()),
+                     [this](const SiteGrid::Site& found) { site.push_back(&found); });
+    ringEnd_.push_back(site.size());
+    const std::size_t room = site.size() + kLanes;
+    if (x.size() < room)
+      for (auto* column : {&x, &y, &z, &radius}) column->resize(2 * room);
+    for (std::size_t k = first; k < site.size(); ++k) {
+      const Vector3d& position = site[k]->position;
+      x[k] = position.x(), y[k] = position.y(), z[k] = position.z(), radius[k] = site[k]->ball.radius;
+    }
+  }
+
+  const SiteGrid* grid_ = nullptr;
+  Vector3d centre_;
+  std::vector<std::size_t> ringEnd_;
+};
+
+/// Builds the inflated power cell of one bubble from the nearest sites outwards: a polyhedron first, which
+/// most sites are seen to miss, then the discs of those that have a face of it. One per thread.
 class InflatedCell {
  public:
   struct Neighbour {
-    const Site* site;
+    const SiteGrid::Site* site;
     double distance;  ///< [m]
   };
 
-  /// The sites that share a face with `site` when every r^2 grows by `inflation` [m^2].
-  const std::vector<Neighbour>& neighboursOf(const Site& site, double inflation, const SiteGrid& grid) {
+  /// Finds the cell of `site` when every r^2 grows by `inflation` [m^2]; false if it has none.
+  bool build(const SiteGrid::Site& site, double inflation, const SiteGrid& grid, Vicinity& vicinity) {
     site_ = &site;
     reach_ = std::sqrt(site.ball.radius * site.ball.radius + inflation);
-    neighbours_.clear();
-    planes_.resize(0);
-    covered_ = false;
-    witness_.setZero();
-    grow(grid);
-    farthestPoint();
-    if (covered_) neighbours_.clear();
-    return neighbours_;
+    face_.clear(), unsure_.clear();
+    cell_.reset(reach_);
+    if (!grow(grid, vicinity)) return false;
+    collectPlanes();
+    return true;
+  }
+  /// Sites that may share a face with it.
+  const std::vector<Neighbour>& neighbours() const { return neighbours_; }
+  /// Whether neighbour k does.
+  bool sharesFace(std::size_t k) {
+    const double farHeight = neighbours_[k].distance - planes_.height[k];
+    return !clipper_.clip(planes_, k, {reach_, 0, reach_, farHeight}).empty;
   }
 
  private:
-  /// Adds all sites that can cut the cell.
-  void grow(const SiteGrid& grid) {
+  struct Candidate {
+    double nearness;  ///< height of its plane over the distance of its centre [-]
+    const SiteGrid::Site* site;
+    bool operator<(const Candidate& other) const {
+      return std::make_pair(nearness, site->index) < std::make_pair(other.nearness, other.site->index);
+    }
+  };
+
+  /// Cuts the polyhedron by all sites that can; false if one takes all of it.
+  bool grow(const SiteGrid& grid, Vicinity& vicinity) {
     const double maxRadius = grid.maxRadius(), r = site_->ball.radius;
-    for (std::int64_t ring = 0; !covered_; ++ring) {
-      grid.visitRing(site_->position, ring, [this](const Site& other) { addSite(other); });
+    std::size_t begin = 0;
+    for (std::int64_t ring = 1;; ++ring) {
+      const std::size_t end = vicinity.endOf(ring);
+      if (!cutByNearest(vicinity, begin, end)) return false;
+      begin = end;
       // All sites nearer than `seen` have been visited; the planes of the others are no nearer than `height`.
       const double seen = static_cast<double>(ring) * grid.cellSize();
-      const double height = seen > 0 ? (seen - (maxRadius * maxRadius - r * r) / seen) / 2 : 0;
-      if (height >= reach_ || (height > 0 && height >= farthestPoint())) return;
+      const double height = (seen - (maxRadius * maxRadius - r * r) / seen) / 2;
+      if (height >= std::min(reach_, cell_.farthest()) || grid.endsWithin(site_->position, ring)) return true;
     }
   }
 
-  void addSite(const Site& other) {
-    if (other.index == site_->index || covered_) return;
+  /// Cuts by sites begin .. end - 1 of the vicinity, from the nearest plane on.
+  bool cutByNearest(const Vicinity& vicinity, std::size_t begin, std::size_t end) {
+    candidates_.clear();
+    for (std::size_t k = begin; k < end; k += kLanes) addCandidates(vicinity, k, std::min(end, k + kLanes));
+    std::sort(candidates_.begin(), candidates_.end());
+    for (const Candidate& candidate : candidates_)
+      if (!cutBy(*candidate.site)) return false;
+    return true;
+  }
+
+  /// Those of a block of sites whose plane meets the box around the polyhedron.
+  void addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end) {
+    const Lanes dx = loadLanes(&vicinity.x[k]) - site_->position.x(),
+                dy = loadLanes(&vicinity.y[k]) - site_->position.y(),
+                dz = loadLanes(&vicinity.z[k]) - site_->position.z(), radius = loadLanes(&vicinity.radius[k]);
+    const double r = site_->ball.radius;
+    const Lanes d2 = dx * dx + dy * dy + dz * dz, offset = (d2 + (r - radius) * (r + radius)) / 2;
+    const auto most = [&](const Lanes& d, int axis) {
+      return d > 0 ? d * cell_.high()[axis] : d * cell_.low()[axis];
+    };
+    const LaneMask meets = (most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0);
+    std::uint32_t bits = 0;
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      bits |= static_cast<std::uint32_t>(meets[lane] & (1 << lane));
+    for (; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      if (k + lane < end)
+        candidates_.push_back({d2[lane] > 0 ? offset[lane] / d2[lane] : kFirst, vicinity.site[k + lane]});
+    }
+  }
+
+  bool cutBy(const SiteGrid::Site& other) {
+    if (other.index == site_->index) return true;
     const Vector3d to = other.position - site_->position;
     const double d = to.norm();
-    if (d == 0) {
-      covered_ =
-          std::make_pair(other.ball.radius, site_->index) > std::make_pair(site_->ball.radius, other.index);
-      return;
-    }
+    if (d == 0)
+      return std::make_pair(other.ball.radius, site_->index) <=
+             std::make_pair(site_->ball.radius, other.index);
     const double height = radicalHeight(site_->ball, other.ball, d);
-    if (height >= reach_) return;
-    const std::size_t last = planes_.count;
-    planes_.resize(last + 1);
-    planes_.nx[last] = to.x() / d, planes_.ny[last] = to.y() / d, planes_.nz[last] = to.z() / d;
-    planes_.height[last] = height;
-    neighbours_.push_back({&other, d});
-    cut(last, to / d);
+    if (height >= reach_) return true;
+    const auto number = static_cast<std::int32_t>(face_.size());
+    const ConvexCell::Cut cut = cell_.cut(to / d, height, ConvexCell::kCubeFaces + number);
+    if (cut == ConvexCell::Cut::done || cut == ConvexCell::Cut::unsure) face_.push_back({&other, d});
+    if (cut == ConvexCell::Cut::unsure) unsure_.push_back(ConvexCell::kCubeFaces + number);
+    return cut != ConvexCell::Cut::gone;
   }
 
-  /// A plane that meets the cell is kept. One that does not leaves the cell whole or takes all of it, as the
-  /// witness tells.
-  void cut(std::size_t plane, const Vector3d& normal) {
-    const bool witnessLost = witness_.dot(normal) > planes_.height[plane];
-    if (!discOf(plane).empty) {
-      if (witnessLost) witness_ = clipper_.pointInside();
-      return;
+  /// The planes that are left, for the discs.
+  void collectPlanes() {
+    cell_.listFaces(left_);
+    left_.insert(left_.end(), unsure_.begin(), unsure_.end());
+    neighbours_.clear();
+    planes_.resize(left_.size());
+    for (std::size_t k = 0; k < left_.size(); ++k) {
+      neighbours_.push_back(face_[left_[k] - ConvexCell::kCubeFaces]);
+      const auto& [other, d] = neighbours_.back();
+      const Vector3d normal = (other->position - site_->position) / d;
+      planes_.nx[k] = normal.x(), planes_.ny[k] = normal.y(), planes_.nz[k] = normal.z();
+      planes_.height[k] = radicalHeight(site_->ball, other->ball, d), planes_.heightShift[k] = 0;
     }
-    shrink(plane);
-    covered_ = witnessLost;
   }
 
-  FilmShape discOf(std::size_t k) {
-    return clipper_.clip(planes_, k, {reach_, 0, reach_, neighbours_[k].distance - planes_.height[k]});
-  }
-
-  void shrink(std::size_t count) {
-    neighbours_.resize(count);
-    planes_.resize(count);
-  }
-
-  /// Drops neighbours whose discs later ones have covered. Returns how far the cell reaches from the centre:
-  /// its farthest corner if films close it, otherwise the inflated ball.
-  double farthestPoint() {
-    double farthest2 = 0;
-    bool closed = !neighbours_.empty();
-    kept_.clear();
-    for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-      const FilmShape disc = discOf(k);
-      if (disc.empty) continue;
-      kept_.push_back(k);
-      closed = closed && disc.arc == 0;
-      farthest2 = std::max(farthest2, clipper_.farthestCorner2());
-    }
-    for (std::size_t to = 0; to < kept_.size(); ++to) {
-      neighbours_[to] = neighbours_[kept_[to]];
-      for (auto* column : {&planes_.nx, &planes_.ny, &planes_.nz, &planes_.height})
-        (*column)[to] = (*column)[kept_[to]];
-    }
-    shrink(kept_.size());
-    return closed && !kept_.empty() ? std::sqrt(farthest2) : reach_;
-  }
-
-  const Site* site_ = nullptr;
-  double reach_ = 0;      ///< radius of the inflated ball [m]
-  bool covered_ = false;  ///< there is no cell
-  Vector3d witness_;      ///< a point of the cell so far, from the bubble's centre [m]
-  std::vector<Neighbour> neighbours_;
-  std::vector<std::size_t> kept_;
+  const SiteGrid::Site* site_ = nullptr;
+  double reach_ = 0;  ///< radius of the inflated ball [m]
+  ConvexCell cell_;
+  std::vector<Candidate> candidates_;
+  std::vector<Neighbour> face_, neighbours_;  ///< behind each face the cell has had; of those that are left
+  std::vector<std::int32_t> unsure_, left_;
   CuttingPlanes planes_;  ///< of the neighbours, in their order
   DiscClipper clipper_;
 };
@@ -204,16 +301,25 @@ void WeakPairs::find(const std::vector<Vector3d>& position, const std::vector<do
   out.clear();
   if (std::count_if(surface.begin(), surface.end(), [](std::uint8_t flag) { return flag != 0; }) < 2) return;
   const SiteGrid grid(position, radius, id, range / kCellsPerRange);
-  const std::vector<Site>& sites = grid.sites();
-  std::vector<std::vector<WeakPair>> found(sites.size());
-  tbb::enumerable_thread_specific<InflatedCell> cells;
-  tbb::parallel_for(std::size_t{0}, sites.size(), [&](std::size_t s) {
-    if (!surface[sites[s].index]) return;
-    const std::int32_t i = sites[s].index;
-    for (const auto& [other, distance] : cells.local().neighboursOf(sites[s], range * range / 4, grid)) {
-      const std::int32_t j = other->index;
-      if (i < j && surface[j] && distance <= range && !inContact(topology, i, j))
-        found[s].push_back({i, j, distance});
+  struct Scratch {
+    Vicinity vicinity;
+    InflatedCell cell;
+  };
+  tbb::enumerable_thread_specific<Scratch> scratch;
+  std::vector<std::vector<WeakPair>> found(grid.runStart().size() - 1);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t run) {
+    auto& [vicinity, cell] = scratch.local();
+    const std::vector<SiteGrid::Site>& sites = grid.sites();
+    vicinity.moveTo(grid, sites[grid.runStart()[run]].position);
+    for (std::int32_t s = grid.runStart()[run]; s < grid.runStart()[run + 1]; ++s) {
+      const std::int32_t i = sites[s].index;
+      if (!surface[i] || !cell.build(sites[s], range * range / 4, grid, vicinity)) continue;
+      for (std::size_t k = 0; k < cell.neighbours().size(); ++k) {
+        const auto& [other, distance] = cell.neighbours()[k];
+        const std::int32_t j = other->index;
+        if (i < j && surface[j] && distance <= range && !inContact(topology, i, j) && cell.sharesFace(k))
+          found[run].push_back({i, j, distance});
+      }
     }
   });
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
