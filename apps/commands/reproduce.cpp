@@ -1,5 +1,7 @@
 #include "apps/commands/reproduce.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -9,17 +11,26 @@
 
 #include "apps/exit_code.h"
 #include "apps/reproduce/reproduction.h"
+#include "apps/run_session.h"
+#include "apps/stop_request.h"
 #include "coupling/atomic_file.h"
+#include "coupling/nearest_key.h"
 
 namespace spume::apps {
 namespace {
 
 struct ReproduceOptions {
   std::vector<std::string> targets, cases;
-  std::string output = "data/results";
+  std::string output = "data/results", scenes = "data/scenes", runs = "out/reproduce";
   double maxCost = std::numeric_limits<double>::infinity();
   int frames = 0;
-  bool list = false;
+  bool list = false, restart = false;
+};
+
+/// A table and the cases of it that were named one by one; none: all that are not too dear.
+struct Selection {
+  const Reproduction* table;
+  std::vector<std::string> cases;
 };
 
 template <typename Item, typename Value>
@@ -27,28 +38,69 @@ bool contains(const std::vector<Item>& items, const Value& value) {
   return std::find(items.begin(), items.end(), value) != items.end();
 }
 
-bool isWanted(const Study& study, const ReproduceOptions& options) {
-  return options.cases.empty() ? study.cost <= options.maxCost : contains(options.cases, study.key);
+std::vector<std::string> keysOf(const Reproduction& table) {
+  std::vector<std::string> keys;
+  for (const Study& study : table.studies) keys.push_back(study.key);
+  return keys;
 }
 
-/// The tables asked for. Throws SceneError for a name or a case that does not exist.
-std::vector<const Reproduction*> chosen(const ReproduceOptions& options) {
-  std::vector<const Reproduction*> tables;
-  std::string names, keys;
-  std::vector<std::string> known;
-  for (const Reproduction& table : reproductions()) {
-    names += table.name + ", ";
-    if (!contains(options.targets, "all") && !contains(options.targets, table.name)) continue;
-    tables.push_back(&table);
-    for (const Study& study : table.studies) known.push_back(study.key), keys += " " + study.key;
+bool isWanted(const Study& study, const Selection& selection, const ReproduceOptions& options) {
+  return selection.cases.empty() ? study.cost <= options.maxCost : contains(selection.cases, study.key);
+}
+
+/// Throws SceneError, naming the nearest, if a word is none of those known.
+void requireKnown(const std::vector<std::string>& words, const std::vector<std::string>& known,
+                  const std::string& what) {
+  for (const std::string& word : words) {
+    if (contains(known, word)) continue;
+    std::string all;
+    for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+    throw coupling::SceneError("unknown " + what + " " + word + ": did you mean " +
+                               coupling::nearestOf(word, known) + "? These are: " + all);
   }
-  for (const std::string& target : options.targets)
-    if (target != "all" &&
-        std::none_of(tables.begin(), tables.end(), [&](auto* t) { return t->name == target; }))
-      throw coupling::SceneError("unknown table " + target + ": expected one of " + names + "all");
-  for (const std::string& key : options.cases)
-    if (!contains(known, key)) throw coupling::SceneError("unknown case " + key + ": these are" + keys);
-  return tables;
+}
+
+/// What was asked for: tables by their name, the paper's scenes also one by one. Throws SceneError for a name
+/// or a case that does not exist.
+std::vector<Selection> chosen(const ReproduceOptions& options) {
+  std::vector<Selection> selections;
+  std::vector<std::string> names, keys;
+  const bool all = contains(options.targets, "all");
+  for (const Reproduction& table : reproductions()) {
+    names.push_back(table.name);
+    const std::vector<std::string> own = keysOf(table);
+    Selection selection{&table, options.cases};
+    const bool whole = all || contains(options.targets, table.name);
+    for (const std::string& key : own)
+      if (!whole && contains(options.targets, key)) selection.cases.push_back(key);
+    names.insert(names.end(), own.begin(), own.end());
+    if (!whole && selection.cases.empty()) continue;
+    keys.insert(keys.end(), own.begin(), own.end());
+    selections.push_back(selection);
+  }
+  names.push_back("all");
+  requireKnown(options.targets, names, "table");
+  requireKnown(options.cases, keys, "case");
+  return selections;
+}
+
+/// Runs a scene as `spume run` does. Throws Stopped if it was interrupted.
+void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart) {
+  SessionOptions session;
+  session.scene = scene;
+  session.folder = folder;
+  session.restart = restart;
+  session.threads =
+      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (const ExitCode code = runSession(session); code != kDone) throw Stopped(code);
+}
+
+StudyContext contextOf(const Reproduction& table, const ReproduceOptions& options) {
+  StudyContext context{options.output + "/" + table.name, options.frames, options.scenes, options.runs, {}};
+  context.runScene = [restart = options.restart](const coupling::Scene& scene, const std::string& folder) {
+    runToTheEnd(scene, folder, restart);
+  };
+  return context;
 }
 
 std::vector<ResultRow> perform(const Study& study, const StudyContext& context) {
@@ -63,39 +115,67 @@ std::vector<ResultRow> perform(const Study& study, const StudyContext& context) 
   return rows;
 }
 
-/// Runs the wanted cases of a table; what an earlier call wrote of the others is kept.
-void make(const Reproduction& reproduction, const ReproduceOptions& options) {
-  const std::string stem = options.output + "/" + reproduction.name;
+/// The table, with the plots its cases have made so far.
+std::string pageOf(const Reproduction& reproduction, const ResultTable& table, const std::string& folder) {
+  std::string page = table.markdown();
+  for (const auto& [file, caption] : reproduction.plots)
+    if (std::filesystem::exists(folder + "/" + reproduction.name + "/" + file))
+      page += "\n![" + caption + "](" + reproduction.name + "/" + file + ")\n*" + caption + "*\n";
+  return page;
+}
+
+ResultTable readTable(const Reproduction& reproduction, const std::string& folder) {
   ResultTable table(reproduction.title);
-  if (std::filesystem::exists(stem + ".csv")) table.readCsv(coupling::readFile(stem + ".csv"), stem + ".csv");
+  const std::string path = folder + "/" + reproduction.name + ".csv";
+  if (std::filesystem::exists(path)) table.readCsv(coupling::readFile(path), path);
+  return table;
+}
+
+/// Runs the wanted cases of a table; what an earlier call wrote of the others is kept.
+void make(const Selection& selection, const ReproduceOptions& options) {
+  const Reproduction& reproduction = *selection.table;
+  const std::string stem = options.output + "/" + reproduction.name;
   coupling::createFolder(options.output);
-  std::vector<std::string> keys;
-  for (const Study& study : reproduction.studies) keys.push_back(study.key);
-  const StudyContext context{options.output + "/" + reproduction.name, options.frames};
+  ResultTable table = readTable(reproduction, options.output);
+  const StudyContext context = contextOf(reproduction, options);
   for (const Study& study : reproduction.studies) {
-    if (!isWanted(study, options)) continue;
+    if (!isWanted(study, selection, options)) continue;
     const std::vector<ResultRow> rows = perform(study, context);
     for (const ResultRow& row : rows) std::cout << summaryOf(row) << std::endl;
     table.set(study.key, rows);
-    table.order(keys);
+    table.order(keysOf(reproduction));
     coupling::replaceFile(stem + ".csv", table.csv());
-    coupling::replaceFile(stem + ".md", table.markdown());
+    coupling::replaceFile(stem + ".md", pageOf(reproduction, table, options.output));
   }
   std::cout << stem << ".md: " << table.count(Verdict::met) << " aims met, " << table.count(Verdict::missed)
             << " missed" << std::endl;
 }
 
+/// reproduce.md: every table that the folder holds, on one page.
+void writeReport(const std::string& folder) {
+  std::string page;
+  for (const Reproduction& reproduction : reproductions())
+    if (const ResultTable table = readTable(reproduction, folder); !table.rows().empty())
+      page += (page.empty() ? "" : "\n") + pageOf(reproduction, table, folder);
+  coupling::replaceFile(folder + "/reproduce.md", page);
+}
+
+void list(const Reproduction& table) {
+  std::cout << table.name << ": " << table.title << "\n";
+  for (const Study& study : table.studies)
+    std::cout << "  " << study.key << "  " << study.title << ", about " << study.cost << " s\n";
+}
+
 int reproduce(const ReproduceOptions& options) {
-  const std::vector<const Reproduction*> tables = chosen(options);
-  for (const Reproduction* table : tables) {
-    if (!options.list) {
-      make(*table, options);
-      continue;
-    }
-    std::cout << table->name << ": " << table->title << "\n";
-    for (const Study& study : table->studies)
-      std::cout << "  " << study.key << "  " << study.title << ", about " << study.cost << " s\n";
+  const std::vector<Selection> selections = chosen(options);
+  try {
+    for (const Selection& selection : selections)
+      options.list ? list(*selection.table) : make(selection, options);
+  } catch (const Stopped& stopped) {
+    std::cerr << "spume: " << stopped.what() << "; the same command goes on" << std::endl;
+    return stopped.code();
   }
+  if (!options.list) writeReport(options.output);
   return kDone;
 }
 
@@ -105,7 +185,10 @@ void addReproduce(CLI::App& program, Action& action) {
   CLI::App* verb = program.add_subcommand(
       "reproduce", "Runs validation cases and sets our figures beside the published or exact ones.");
   const auto options = std::make_shared<ReproduceOptions>();
-  verb->add_option("tables", options->targets, "liquid, or all")->required()->type_name("TABLE");
+  verb->add_option("tables", options->targets,
+                   "liquid, scenes, one of cluster, soap, pouring, coke, coke_100k, or all")
+      ->required()
+      ->type_name("TABLE");
   verb->add_option("--cases", options->cases, "only these, e.g. L1,L3; the other rows of the table stay")
       ->delimiter(',')
       ->type_name("KEYS");
@@ -115,13 +198,25 @@ void addReproduce(CLI::App& program, Action& action) {
   verb->add_option("--frames", options->frames, "length of a scene's run; default: as the scene says")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
-  verb->add_option("-o,--output", options->output, "folder of the tables, TABLE.csv and TABLE.md")
+  verb->add_option("-o,--output", options->output, "folder of the tables and plots")
       ->type_name("DIR")
       ->capture_default_str();
+  verb->add_option("--scenes", options->scenes, "folder of the scene files")
+      ->type_name("DIR")
+      ->capture_default_str();
+  verb->add_option("--runs", options->runs, "folder the scenes run in; what is there already is gone on with")
+      ->type_name("DIR")
+      ->capture_default_str();
+  verb->add_flag("--restart", options->restart, "run the scenes anew");
   verb->add_flag("--list", options->list, "show the cases and what they cost, run nothing");
   verb->footer(
+      "Writes TABLE.csv, TABLE.md, plots in TABLE/, and reproduce.md with all tables of the folder. A scene "
+      "that\n"
+      "was interrupted goes on when the same command is given again; with more --frames it is continued.\n"
       "Examples:\n"
-      "  spume reproduce liquid --list\n"
+      "  spume reproduce all --list\n"
+      "  spume reproduce cluster soap\n"
+      "  spume reproduce coke --frames 150\n"
       "  spume reproduce liquid --max-cost 60\n"
       "  spume reproduce liquid --cases F8,F9 -o out/results");
   verb->callback([options, &action] { action = [options] { return reproduce(*options); }; });

@@ -79,6 +79,13 @@ ResultRow& aimAtMost(ResultRow& row, double figure, double limit, const std::str
   return row;
 }
 
+ResultRow& aimAtLeast(ResultRow& row, double figure, double limit, const std::string& unit) {
+  aimAtMost(row, figure, limit, unit);
+  row.aim.replace(0, 2, ">=");
+  row.verdict = figure >= limit ? Verdict::met : Verdict::missed;  // NaN misses
+  return row;
+}
+
 ResultRow& reportOnly(ResultRow& row, double figure, const std::string& unit) {
   row.figure = figure;
   row.unit = unit;

@@ -29,6 +29,9 @@ struct ResultRow {
 /// Sets figure, unit, aim and verdict: |figure| is to be at most `limit`, in the same unit.
 ResultRow& aimAtMost(ResultRow& row, double figure, double limit, const std::string& unit);
 
+/// The same where the figure is to be at least `limit`.
+ResultRow& aimAtLeast(ResultRow& row, double figure, double limit, const std::string& unit);
+
 /// Sets figure and unit of a row that aims at nothing.
 ResultRow& reportOnly(ResultRow& row, double figure, const std::string& unit);
 

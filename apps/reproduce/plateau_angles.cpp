@@ -1,0 +1,161 @@
+#include "apps/reproduce/plateau_angles.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+namespace spume::apps {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kFilmAngle = 120;
+const double kBorderAngle = std::acos(-1.0 / 3) * 180 / std::numbers::pi;
+
+/// Borders shorter than this share of the film's disc are round-off of a point where more than four cells
+/// meet.
+constexpr double kShortest = 1e-7;
+
+double degreesBetween(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+double rmsFrom(const std::vector<double>& values, double centre) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (const double v : values) sum += (v - centre) * (v - centre);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// Contacts of every bubble, ascending.
+std::vector<std::vector<std::int32_t>> contactsOf(std::size_t bubbles, const foam::FoamTopology& topology) {
+  std::vector<std::vector<std::int32_t>> contacts(bubbles);
+  for (const foam::Film& film : topology.films) {
+    contacts[film.i].push_back(film.j);
+    contacts[film.j].push_back(film.i);
+  }
+  for (auto& list : contacts) std::sort(list.begin(), list.end());
+  return contacts;
+}
+
+/// A third bubble seen in the plane of a film: the film lies where a.q <= b, q measured from the disc's
+/// centre.
+struct Cut {
+  std::int32_t bubble;
+  Vector2d a;
+  double b;
+};
+
+/// A stretch of the line a.q = b; an end holds the bubble whose cell ends it, or -1 if the disc does.
+struct Stretch {
+  double from, to;
+  std::int32_t beforeFrom = -1, afterTo = -1;
+};
+
+Stretch stretchOf(const std::vector<Cut>& cuts, const Cut& line, double discRadius2) {
+  const double a2 = line.a.squaredNorm(), half2 = discRadius2 - line.b * line.b / a2;
+  const Vector2d foot = line.a * (line.b / a2), along = Vector2d(-line.a.y(), line.a.x()) / std::sqrt(a2);
+  const double half = half2 > 0 ? std::sqrt(half2) : -1;
+  Stretch stretch{-half, half};
+  for (const Cut& other : cuts) {
+    if (other.bubble == line.bubble) continue;
+    const double slope = other.a.dot(along), room = other.b - other.a.dot(foot);
+    if (slope > 0 && room / slope < stretch.to)
+      stretch.to = room / slope, stretch.afterTo = other.bubble;
+    else if (slope < 0 && room / slope > stretch.from)
+      stretch.from = room / slope, stretch.beforeFrom = other.bubble;
+    else if (slope == 0 && room < 0)
+      stretch.to = stretch.from;
+  }
+  return stretch;
+}
+
+/// Collects the angles of a foam, border by border.
+class Collector {
+ public:
+  Collector(const std::vector<Vector3d>& position, const std::vector<double>& radius,
+            const foam::FoamTopology& topology, const std::vector<std::uint8_t>& wanted)
+      : position_(position),
+        radius_(radius),
+        wanted_(wanted),
+        contacts_(contactsOf(position.size(), topology)) {}
+
+  /// The borders of a film whose third bubble has the highest index, and their points whose fourth is higher
+  /// still: each border and each point is met once.
+  void add(const foam::Film& film) {
+    if (!wanted_[film.i] || !wanted_[film.j]) return;
+    const std::vector<Cut> cuts = cutsOf(film);
+    const double disc2 = radius_[film.i] * radius_[film.i] - film.height * film.height;
+    for (const Cut& cut : cuts) {
+      if (cut.bubble < film.j || !wanted_[cut.bubble] || cut.a.squaredNorm() == 0) continue;
+      const Stretch stretch = stretchOf(cuts, cut, disc2);
+      if (stretch.to - stretch.from < kShortest * std::sqrt(std::max(disc2, 0.0))) continue;
+      addBorder(film.i, film.j, cut.bubble);
+      for (const std::int32_t fourth : {stretch.beforeFrom, stretch.afterTo})
+        if (fourth > cut.bubble && wanted_[fourth]) addPoint({film.i, film.j, cut.bubble, fourth});
+    }
+  }
+
+  PlateauAngles angles;
+
+ private:
+  std::vector<Cut> cutsOf(const foam::Film& film) const {
+    std::vector<std::int32_t> common;
+    std::set_intersection(contacts_[film.i].begin(), contacts_[film.i].end(), contacts_[film.j].begin(),
+                          contacts_[film.j].end(), std::back_inserter(common));
+    const Vector3d& near = position_[film.i];
+    const Vector3d normal = (position_[film.j] - near) / film.distance, u = normal.unitOrthogonal(),
+                   v = normal.cross(u);
+    std::vector<Cut> cuts;
+    for (const std::int32_t k : common) {
+      const Vector3d e = position_[k] - near;
+      const double plane = (e.squaredNorm() + std::pow(radius_[film.i], 2) - std::pow(radius_[k], 2)) / 2;
+      cuts.push_back({k, {u.dot(e), v.dot(e)}, plane - film.height * normal.dot(e)});
+    }
+    return cuts;
+  }
+
+  /// Films stand square on the lines of centres: inside cell a two of them meet at 180 degrees less the angle
+  /// of the triangle of centres at a.
+  void addBorder(std::int32_t i, std::int32_t j, std::int32_t k) {
+    for (const auto& [a, b, c] : {std::array{i, j, k}, std::array{j, k, i}, std::array{k, i, j}})
+      angles.films.push_back(180 - degreesBetween(position_[b] - position_[a], position_[c] - position_[a]));
+  }
+
+  /// The border of three cells runs square to their triangle, away from the fourth.
+  void addPoint(const std::array<std::int32_t, 4>& cells) {
+    std::array<Vector3d, 4> border;
+    for (int away = 0; away < 4; ++away) {
+      const Vector3d& a = position_[cells[(away + 1) % 4]];
+      const Vector3d square =
+          (position_[cells[(away + 2) % 4]] - a).cross(position_[cells[(away + 3) % 4]] - a);
+      border[away] = square.dot(position_[cells[away]] - a) > 0 ? Vector3d(-square) : square;
+    }
+    for (int a = 0; a < 4; ++a)
+      for (int b = a + 1; b < 4; ++b) angles.borders.push_back(degreesBetween(border[a], border[b]));
+  }
+
+  const std::vector<Vector3d>& position_;
+  const std::vector<double>& radius_;
+  const std::vector<std::uint8_t>& wanted_;
+  const std::vector<std::vector<std::int32_t>> contacts_;
+};
+
+}  // namespace
+
+double PlateauAngles::filmSpread() const { return rmsFrom(films, kFilmAngle); }
+double PlateauAngles::borderSpread() const { return rmsFrom(borders, kBorderAngle); }
+
+PlateauAngles plateauAngles(const std::vector<Vector3d>& position, const std::vector<double>& radius,
+                            const foam::FoamTopology& topology, const std::vector<std::uint8_t>& wanted) {
+  Collector collector(position, radius, topology, wanted);
+  for (const foam::Film& film : topology.films) collector.add(film);
+  return std::move(collector.angles);
+}
+
+}  // namespace spume::apps

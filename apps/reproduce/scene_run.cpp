@@ -1,0 +1,120 @@
+#include "apps/reproduce/scene_run.h"
+
+#include <filesystem>
+
+#include "apps/reproduce/csv_reader.h"
+#include "coupling/bubble_cache.h"
+#include "coupling/checkpoint.h"
+#include "coupling/run_folder.h"
+#include "foam/power_cells.h"
+
+namespace spume::apps {
+namespace {
+
+/// A column of numbers and the list it fills.
+struct Wanted {
+  const char* name;
+  std::vector<double>& values;
+};
+
+std::size_t append(CsvReader& reader, const std::vector<Wanted>& wanted) {
+  std::vector<std::size_t> columns;
+  for (const Wanted& w : wanted) columns.push_back(reader.column(w.name));
+  std::size_t rows = 0;
+  for (; reader.next(); ++rows)
+    for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n].values.push_back(reader.number(columns[n]));
+  return rows;
+}
+
+/// Adds up, or takes the last of, the steps of each frame.
+void foldSteps(const std::string& folder, FrameCurves& curves) {
+  std::vector<double> foamSteps, hidden, clamped, overlaps, entrain, supply, foam, geometry;
+  CsvReader reader(folder + "/steps.csv");
+  append(reader, {{"foam_substeps", foamSteps},
+                  {"hidden", hidden},
+                  {"clamped", clamped},
+                  {"overlaps", overlaps},
+                  {"seconds_entrainment", entrain},
+                  {"seconds_supply", supply},
+                  {"seconds_foam", foam},
+                  {"seconds_foam_geometry", geometry}});
+  std::size_t step = 0;
+  for (const double steps : curves.steps) {
+    double split = 0, seconds = 0, diagram = 0;
+    const std::size_t end = std::min(foam.size(), step + static_cast<std::size_t>(steps));
+    for (; step < end; ++step) {
+      split += foamSteps[step];
+      seconds += entrain[step] + supply[step] + foam[step];
+      diagram += geometry[step];
+    }
+    curves.foamSteps.push_back(split);
+    curves.foamSeconds.push_back(seconds);
+    curves.diagramSeconds.push_back(diagram);
+    curves.overlaps.push_back(step ? overlaps[step - 1] : 0);
+    curves.flagged.push_back(step ? hidden[step - 1] + clamped[step - 1] : 0);
+  }
+}
+
+coupling::Scene sceneOf(const StudyContext& context, const std::string& name,
+                        const coupling::Overrides& overrides) {
+  coupling::Scene scene = coupling::readScene(context.scenes + "/" + name + ".toml", overrides);
+  if (context.frames > 0) scene.time.frames = context.frames;
+  scene.output.preview = scene.output.bubblesVdb = scene.output.dropsVdb = scene.output.dropsPly = false;
+  return scene;
+}
+
+}  // namespace
+
+FrameCurves readFrameCurves(const std::string& folder) {
+  FrameCurves curves;
+  CsvReader reader(folder + "/frames.csv");
+  append(reader, {{"frame", curves.frame},
+                  {"time", curves.time},
+                  {"steps", curves.steps},
+                  {"bubbles", curves.bubbles},
+                  {"bubbles_surface", curves.surface},
+                  {"contacts", curves.contacts},
+                  {"seconds", curves.seconds},
+                  {"volume_error_max", curves.worstVolume},
+                  {"volume_error_median", curves.medianVolume}});
+  foldSteps(folder, curves);
+  return curves;
+}
+
+Eigen::VectorXd SceneRun::distanceToSolids(const std::vector<Eigen::Vector3d>& points) const {
+  Eigen::VectorXd psi(static_cast<Eigen::Index>(points.size()));
+  if (points.empty()) return psi;
+  const Eigen::Map<const Eigen::Matrix3Xd> x(points.front().data(), 3, psi.size());
+  liquid->sampler()->psi(x, psi);
+  return psi;
+}
+
+SceneRun runScene(const StudyContext& context, const std::string& name, const std::string& variant,
+                  const coupling::Overrides& overrides) {
+  SceneRun run;
+  run.name = variant;
+  run.scene = sceneOf(context, name, overrides);
+  run.folder = context.runs + "/" + variant;
+  context.runScene(run.scene, run.folder);
+  run.frames = readFrameCurves(run.folder);
+  const std::string checkpoints = coupling::RunFolder(run.folder).checkpoints();
+  auto loaded = coupling::readNewestCheckpoint(checkpoints, run.scene);
+  if (!loaded) throw coupling::FileError(checkpoints + ": holds no checkpoint");
+  run.state = std::move(loaded->state);
+  run.liquid = coupling::makeLiquid(run.scene, std::move(run.state.liquid));
+  const foam::BubbleStore& bubbles = run.bubbles();
+  foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, run.topology);
+  return run;
+}
+
+std::vector<CachedFrame> cachedFrames(const SceneRun& run, int firstFrame) {
+  std::vector<CachedFrame> found;
+  const coupling::RunFolder folder(run.folder);
+  for (int frame = std::max(firstFrame, 1); frame <= run.state.frame; ++frame) {
+    const std::string path = folder.bubblesPly(frame);
+    if (std::filesystem::exists(path)) found.push_back({frame, coupling::readBubblesPly(path).bubbles});
+  }
+  return found;
+}
+
+}  // namespace spume::apps

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/reproduce/plateau_angles.h"
+#include "foam/counter_random.h"
+#include "foam/power_cells.h"
+
+namespace spume::apps {
+namespace {
+
+/// A foam of balls so large that every cell is whole, and flags of those far from its border.
+struct Froth {
+  std::vector<Eigen::Vector3d> position;
+  std::vector<double> radius;
+  std::vector<std::uint8_t> inner;
+
+  void add(const Eigen::Vector3d& x, double r, bool inside) {
+    position.push_back(x);
+    radius.push_back(r);
+    inner.push_back(inside);
+  }
+  PlateauAngles angles() const {
+    std::vector<std::uint64_t> id(position.size());
+    for (std::size_t n = 0; n < id.size(); ++n) id[n] = n;
+    foam::FoamTopology topology;
+    foam::PowerCells().compute(position, radius, id, topology);
+    return plateauAngles(position, radius, topology, inner);
+  }
+};
+
+TEST(PlateauAngles, OfEqualCellsOnACentredCubicLatticeAreThoseOfTheTruncatedOctahedron) {
+  constexpr int kEdge = 6;
+  Froth froth;
+  for (int i = 0; i < kEdge; ++i)
+    for (int j = 0; j < kEdge; ++j)
+      for (int k = 0; k < kEdge; ++k)
+        for (const double shift : {0.0, 0.5}) {
+          const Eigen::Vector3d x(i + shift, j + shift, k + shift);
+          froth.add(x, 0.7, (x.array() > 1.4).all() && (x.array() < kEdge - 1.9).all());
+        }
+  const PlateauAngles angles = froth.angles();
+  ASSERT_GT(angles.borders.size(), 100u);
+  // Two hexagons and a square: 109.47 and twice 125.26 degrees. Borders: twice 90, four times 120 degrees.
+  const double square = std::acos(-1.0 / 3) * 180 / M_PI, hexagon = 180 - square / 2;
+  const double films = std::sqrt((std::pow(square - 120, 2) + 2 * std::pow(hexagon - 120, 2)) / 3);
+  const double borders = std::sqrt((2 * std::pow(90 - square, 2) + 4 * std::pow(120 - square, 2)) / 6);
+  constexpr double kTieBreak = 1e-4;  // radii are told apart by 1e-9, which tilts nothing; round-off of acos
+  EXPECT_NEAR(angles.filmSpread(), films, kTieBreak);
+  EXPECT_NEAR(angles.borderSpread(), borders, kTieBreak);
+}
+
+TEST(PlateauAngles, OfRandomPointsSpreadAsARandomDiagramDoes) {
+  constexpr int kPoints = 1500;
+  constexpr double kFilms = 24, kBorders = 36;  // published spreads of a random power diagram [degrees]
+  constexpr double kSample = 0.08;              // of them: some thousand angles, and a border to the sample
+  Froth froth;
+  for (int n = 0; n < kPoints; ++n) {
+    foam::CounterRandom random(7, static_cast<std::uint64_t>(n), 1);
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    const Eigen::Vector3d p(x, y, z);
+    froth.add(p, 0.2, (p.array() > 0.2).all() && (p.array() < 0.8).all());
+  }
+  const PlateauAngles angles = froth.angles();
+  ASSERT_GT(angles.films.size(), 1000u);
+  EXPECT_NEAR(angles.filmSpread(), kFilms, kSample * kFilms);
+  EXPECT_NEAR(angles.borderSpread(), kBorders, kSample * kBorders);
+}
+
+TEST(PlateauAngles, OfThreeBubblesInARingAreOneBorder) {
+  Froth froth;
+  for (int n = 0; n < 3; ++n)
+    froth.add({std::cos(n * 2 * M_PI / 3), std::sin(n * 2 * M_PI / 3), 0}, 1.2, true);
+  const PlateauAngles angles = froth.angles();
+  ASSERT_EQ(angles.films.size(), 3u);
+  EXPECT_NEAR(angles.filmSpread(), 0, 1e-6);  // an equilateral triangle, up to the tie-break of the radii
+  EXPECT_TRUE(angles.borders.empty());
+}
+
+}  // namespace
+}  // namespace spume::apps
