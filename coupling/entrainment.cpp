@@ -29,20 +29,6 @@ double normal(foam::CounterRandom& random) {
   return radial * std::cos(2 * std::numbers::pi * random.uniform());
 }
 
-double normalShareBelow(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
-/// Mean of r^3 [m^3] of a lognormal cut to [minRadius, maxRadius]: median^3 e^(9 sigma^2 / 2) times the share
-/// of the normal, moved by 3 sigma, that the cut leaves, over the share it leaves of the one not moved.
-double meanCube(const EntrainmentSpec& spec) {
-  if (spec.sigma == 0) return std::pow(spec.medianRadius, 3);
-  const double low = std::log(spec.minRadius / spec.medianRadius) / spec.sigma;
-  const double high = std::log(spec.maxRadius / spec.medianRadius) / spec.sigma;
-  const double moved = 3 * spec.sigma;
-  const double kept = normalShareBelow(high) - normalShareBelow(low);
-  const double keptMoved = normalShareBelow(high - moved) - normalShareBelow(low - moved);
-  return std::pow(spec.medianRadius, 3) * std::exp(0.5 * moved * moved) * keptMoved / kept;
-}
-
 }  // namespace
 
 /// What a marker and a pocket have in common when they leave the set.
@@ -53,7 +39,7 @@ struct Entrainment::Leaver {
 };
 
 Entrainment::Entrainment(const EntrainmentSpec& spec, double dx, std::uint64_t seed)
-    : spec_(spec), dx_(dx), meanVolume_(4.0 / 3.0 * std::numbers::pi * meanCube(spec)), seed_(seed) {}
+    : spec_(spec), dx_(dx), seed_(seed) {}
 
 double Entrainment::drawRadius(const BlockIndex& block, std::uint64_t draw) const {
   foam::CounterRandom random(seed_ ^ blockKey(block), draw, kRadiusPurpose);
@@ -80,31 +66,21 @@ void Entrainment::payBubbles(const Leaver& leaver, const BlockIndex& block, Rese
   }
 }
 
-/// Deviation: the model asks for speed alone. A soft jet and the cushion of a drop have a few fast leavers
-/// too, noise of single cells; where water really drags air under, they keep coming.
-bool Entrainment::entrains(const Leaver& leaver, Reservoir& reservoir) const {
-  if (leaver.speed < spec_.onset) return false;
-  const double before = reservoir.recent;
-  reservoir.recent += leaver.gas;
-  return before >= spec_.onsetBubbles * meanVolume_;
-}
-
 std::vector<Birth> Entrainment::step(const std::vector<fluid::EscapedMarker>& escaped,
-                                     const std::vector<fluid::CollapsedPocket>& pockets, double dt,
+                                     const std::vector<fluid::CollapsedPocket>& pockets,
                                      Reservoirs& reservoirs, GasLedger& ledger) const {
-  for (auto& [block, reservoir] : reservoirs) reservoir.recent *= std::exp(-dt / spec_.onsetMemory);
   // The captured film is as thick as a cell; L_e/dx makes it as thick as L_e at every resolution (rule 2).
   const double filmScale = spec_.length / dx_;
   std::vector<Birth> births;
   const auto pay = [&](const Leaver& leaver, double& born) {
+    if (leaver.speed < spec_.onset) {
+      ledger.notEntrained += leaver.gas;
+      return;
+    }
     const Eigen::Array3d cell = (leaver.position / spec_.blockSize).array().floor();
     const BlockIndex block{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
                            static_cast<int>(cell.z())};
     Reservoir& reservoir = reservoirs[block];
-    if (!entrains(leaver, reservoir)) {
-      ledger.notEntrained += leaver.gas;
-      return;
-    }
     reservoir.gas += leaver.gas;
     born += leaver.gas;
     payBubbles(leaver, block, reservoir, births);

@@ -16,7 +16,6 @@ namespace spume::coupling {
 /// Gas waiting in one block of space for the next bubble it can pay.
 struct Reservoir {
   double gas = 0;           ///< [m^3]
-  double recent = 0;        ///< offered lately, whether it was taken or not [m^3]
   std::uint64_t draws = 0;  ///< radii drawn so far; keys the next one
 };
 
@@ -29,33 +28,29 @@ struct Birth {
 };
 
 /// Turns air caught by the level set into bubbles (model, Section 4, rules 2 to 5). The rate of gas comes
-/// from the markers that left the set, the sizes from the scene's distribution: sizes depend on neither dx,
-/// dt nor the number of markers. The rate still does, through the speeds that markers remember (README,
-/// "Measured").
+/// from the markers that left the set where streams meet fast enough, the sizes from the scene's
+/// distribution: neither depends on dx, dt or the number of markers (README, "Measured").
 class Entrainment {
  public:
   /// `dx` is the liquid's cell edge [m].
   Entrainment(const EntrainmentSpec& spec, double dx, std::uint64_t seed);
 
-  /// After `dt` [s], books the gas of `escaped` and `pockets` into `reservoirs` and `ledger` and returns the
+  /// Books the gas of `escaped` and `pockets` into `reservoirs` and `ledger` and returns the
   /// bubbles the reservoirs can pay, in the order of the leavers that tipped them.
   std::vector<Birth> step(const std::vector<fluid::EscapedMarker>& escaped,
-                          const std::vector<fluid::CollapsedPocket>& pockets, double dt,
-                          Reservoirs& reservoirs, GasLedger& ledger) const;
+                          const std::vector<fluid::CollapsedPocket>& pockets, Reservoirs& reservoirs,
+                          GasLedger& ledger) const;
 
   /// Radius [m] of bubble number `draw` of a block: lognormal, redrawn until inside the cut.
   double drawRadius(const BlockIndex& block, std::uint64_t draw) const;
 
  private:
   struct Leaver;
-  /// Whether a leaver is fast enough, and not the only one for long (rule 3).
-  bool entrains(const Leaver& leaver, Reservoir& reservoir) const;
   void payBubbles(const Leaver& leaver, const BlockIndex& block, Reservoir& reservoir,
                   std::vector<Birth>& births) const;
 
   EntrainmentSpec spec_;
   double dx_;
-  double meanVolume_;  ///< of the bubbles drawn [m^3]
   std::uint64_t seed_;
 };
 

@@ -174,15 +174,14 @@ struct ProbeSpec {
 /// Where escaped markers become bubbles (model, Section 4: rules 2 to 5).
 struct EntrainmentSpec {
   bool enabled = true;
-  double length = 3.6e-3;  ///< L_e: gas of a marker is multiplied by L_e/dx [m], 1e-5 to 0.1
-  /// Smallest remembered relative speed that entrains [m/s], 0 to 10. Measured at 48^3 and 64^3: leavers of a
-  /// drop or a jet that lands at 0.8 to 0.9 m/s remember less than 0.9, a third of those of the pouring scene
-  /// more than 1.
-  double onset = 1;
-  double blockSize = 1e-2;  ///< edge of a gas reservoir [m], 1e-4 to 0.1
-  /// Gas that a block must have got lately before it pays, in mean bubbles [-], 0 to 1e6, and what is lately
-  /// [s], 1e-3 to 1e9. A soft jet gives at most 3, as single puffs; the blocks under a plunging one get tens.
-  double onsetBubbles = 10, onsetMemory = 0.25;
+  /// L_e: gas of a marker is multiplied by L_e/dx [m], 1e-5 to 0.1. 3.6 mm gives the pouring scene 0.9 of the
+  /// gas that plunging jets entrain, Qa/Qw = 0.04 Fr^0.28 (L/d)^0.4 (model, Section 4).
+  double length = 3.6e-3;
+  /// Smallest impact speed that entrains [m/s], 0 to 10 (fluid/impact_speed.h). Water entrains from about
+  /// 1 m/s on. Measured at 64^3: a soft jet and a drop that land at 0.8 to 0.9 m/s stay below 1.0, of the
+  /// pouring scene's leavers the calm pool's stay below 0.7 and the jet's come at 1.2 to 1.7.
+  double onset = 1.1;
+  double blockSize = 1e-2;                           ///< edge of a gas reservoir [m], 1e-4 to 0.1
   double medianRadius = 0.75e-3;                     ///< lognormal radius distribution: median [m]
   double sigma = 0.3;                                ///< of ln r [-], 0 to 2
   double minRadius = 0.375e-3, maxRadius = 1.25e-3;  ///< cut [m]

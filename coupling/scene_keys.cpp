@@ -59,8 +59,8 @@ KeyTable liquidTable() {
       .key("marker_radius_max", &FluidParams::markerRadiusMax, {0.1, 1, "dx"}, "largest marker")
       .key("reseed_interval", &FluidParams::reseedInterval, {1, 1000, "-"}, "sub-steps between reseedings")
       .key("escape_depth", &FluidParams::escapeDepth, {0.5, 3, "dx"}, "depth at which air markers become gas")
-      .key("speed_memory", &FluidParams::speedMemory, {0.001, 1, "s"},
-           "decay time of a marker's impact speed")
+      .key("impact_reach", &FluidParams::impactReach, {1e-4, 1, "m"},
+           "how far around lost air streams that meet are looked for")
       .key("pressure_tolerance", &FluidParams::pressureTolerance, {1e-12, 1e-2, "-"}, "relative residual")
       .key("pressure_iterations", &FluidParams::pressureIterations, {1, 10000, "-"},
            "limit of a pressure solve")
@@ -88,9 +88,6 @@ KeyTable entrainmentTable() {
       .key("length", &EntrainmentSpec::length, {1e-5, 0.1, "m"}, "L_e, thickness of the captured air film")
       .key("onset", &EntrainmentSpec::onset, {0, 10, "m/s"}, "smallest impact speed that entrains")
       .key("block_size", &EntrainmentSpec::blockSize, {1e-4, 0.1, "m"}, "edge of the blocks that collect gas")
-      .key("onset_bubbles", &EntrainmentSpec::onsetBubbles, {0, 1e6, "-"},
-           "a block pays once it was offered the gas of this many mean bubbles")
-      .key("onset_memory", &EntrainmentSpec::onsetMemory, {1e-3, 1e9, "s"}, "in about this time")
       .key("median_radius", &EntrainmentSpec::medianRadius, {1e-5, 0.1, "m"}, "of the lognormal distribution")
       .key("sigma", &EntrainmentSpec::sigma, {0, 2, "-"}, "of ln r")
       .key("min_radius", &EntrainmentSpec::minRadius, {1e-5, 0.1, "m"}, "smallest bubble")

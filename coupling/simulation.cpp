@@ -128,7 +128,7 @@ void Simulation::Internals::entrain(double dt, StepReport& report) {
   const auto escaped = liquid->takeEscaped();
   const auto pockets = liquid->takeCollapsedPockets();
   if (scene.coupling.entrainment.enabled) {
-    for (const Birth& birth : entrainment.step(escaped, pockets, dt, reservoirs, gas)) {
+    for (const Birth& birth : entrainment.step(escaped, pockets, reservoirs, gas)) {
       bubbles.add(birth.bubble);
       const EventCause cause = birth.cause == BirthCause::marker ? EventCause::marker : EventCause::pocket;
       report.events.push_back(eventOf(Event::Kind::birth, cause, report.time, bubbles, bubbles.size() - 1));

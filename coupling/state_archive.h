@@ -114,9 +114,9 @@ template <typename Archive>
 void archive(Archive& a, Reservoirs& reservoirs) {
   const std::size_t count = a.length(reservoirs.size());
   const auto entry = [&a](BlockIndex& block, Reservoir& reservoir) {
-    auto& [gas, recent, draws] = reservoir;
+    auto& [gas, draws] = reservoir;
     for (int& index : block) archive(a, index);
-    archiveAll(a, gas, recent, draws);
+    archiveAll(a, gas, draws);
   };
   if constexpr (Archive::kReads) {
     reservoirs.clear();

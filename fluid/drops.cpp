@@ -70,21 +70,20 @@ Fate flyOne(const MarkerScene& scene, const FieldView& phi, const FieldView& psi
 
 }  // namespace
 
+double Drops::refreshVolumes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& negative) {
+  return shares_.refresh(scene, phi, MarkerSign::negative, negative);
+}
+
 std::vector<Drop> Drops::launch(const MarkerScene& scene, const DenseField<float>& phi,
                                 const MacVelocity& velocity, MarkerSet& negative) {
-  shares_.refresh(scene, phi, MarkerSign::negative, negative);
-  const FieldView field(phi);
   const MacView wind(velocity);
-  const float perDx = static_cast<float>(1 / scene.grid.dx);
   std::vector<Drop> launched;
-  for (std::size_t n = 0; n < negative.size(); ++n) {
+  lost_.forEach(scene, phi, MarkerSign::negative, kLaunchHeight, negative, [&](std::int32_t n) {
     const float x = negative.x[n], y = negative.y[n], z = negative.z[n];
-    const float height = perDx * sampleCentred(field, x, y, z);
-    if (height <= std::max(kLaunchHeight, negative.radius[n])) continue;
     const Velocity3f u = sampleVelocity(wind, x, y, z);
     launched.push_back({scene.grid.toWorld({x, y, z}), {u.x, u.y, u.z}, negative.gas[n]});
     negative.x[n] = std::numeric_limits<float>::quiet_NaN();
-  }
+  });
   if (!launched.empty()) sorter_.compact(negative);
   return launched;
 }

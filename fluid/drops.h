@@ -6,6 +6,7 @@
 
 #include "fluid/dense_field.h"
 #include "fluid/drop.h"
+#include "fluid/lost_markers.h"
 #include "fluid/marker_particles.h"
 #include "fluid/marker_shares.h"
 
@@ -24,14 +25,18 @@ class Drops {
  public:
   explicit Drops(const GridSpec& grid) : shares_(grid), sorter_(grid) {}
 
-  /// Refreshes the volume each negative marker stands for (column `gas`), then takes those that are out of
-  /// the liquid by more than their radius and kLaunchHeight cells out of the set. Returns them as drops
-  /// without id, in the order of the set.
+  /// Sets the volume each negative marker inside the liquid stands for (column `gas`). Returns their sum
+  /// [m^3].
+  double refreshVolumes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& negative);
+
+  /// Takes the negative markers that are out of the liquid by more than their radius and kLaunchHeight cells
+  /// out of the set. Returns them as drops without id, in the order of the set.
   std::vector<Drop> launch(const MarkerScene& scene, const DenseField<float>& phi,
                            const MacVelocity& velocity, MarkerSet& negative);
 
  private:
   MarkerShares shares_;
+  LostMarkers lost_;
   MarkerSorter sorter_;
 };
 

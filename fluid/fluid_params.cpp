@@ -33,7 +33,7 @@ void FluidParams::validate() const {
   require("markerRadiusMax", markerRadiusMax, markerRadiusMin, 1, "dx");
   require("reseedInterval", reseedInterval, 1, 1000, "sub-steps");
   require("escapeDepth", escapeDepth, 0.5, 3, "dx");
-  require("speedMemory", speedMemory, 0.001, 1, "s");
+  require("impactReach", impactReach, 1e-4, 1, "m");
   require("pressureTolerance", pressureTolerance, 1e-12, 1e-2, "");
   require("pressureIterations", pressureIterations, 1, 10000, "");
   require("volumeControlTime", volumeControlTime, 0.001, 10, "s");

@@ -23,9 +23,7 @@ struct FluidParams {
   double markerRadiusMax = 0.5;  ///< [dx] (Enright 2002)
   int reseedInterval = 10;       ///< sub-steps between reseedings, 1 to 1000
   double escapeDepth = 1;        ///< depth at which a positive marker leaves the set [dx], 0.5 to 3
-  /// Decay time of a marker's remembered relative speed [s], 0.001 to 1. Sinking by escapeDepth takes up to
-  /// 0.1 s; at 0.05 s a fast plunge and a soft landing are remembered alike.
-  double speedMemory = 0.15;
+  double impactReach = 0.01;     ///< how far around lost air streams that meet are looked for [m], 1e-4 to 1
 
   double pressureTolerance = 1e-6;  ///< relative residual of the pressure solve, 1e-12 to 1e-2
   int pressureIterations = 200;     ///< limit of the pressure solve, 1 to 10000

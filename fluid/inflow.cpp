@@ -203,13 +203,20 @@ void InflowSet::close(Nozzle& nozzle, SolidBoundary& boundary) const {
 const std::vector<PouredVolume>& InflowSet::stamp(double t, double dt, DenseField<float>& phi,
                                                   SolidBoundary& boundary) {
   poured_.clear();
+  reshaped_ = false;
+  for (std::size_t n = 0; n < inflows_.size(); ++n)
+    reshaped_ |= nozzles_[n].open != (scaleAt(inflows_[n], t) > 0);
   for (auto nozzle = nozzles_.rbegin(); nozzle != nozzles_.rend(); ++nozzle) release(*nozzle, boundary);
   for (std::size_t n = 0; n < inflows_.size(); ++n) {
     Nozzle& nozzle = nozzles_[n];
     if (!(scaleAt(inflows_[n], t) > 0)) continue;
     const bool opens = t - dt <= 0 || !(scaleAt(inflows_[n], t - dt) > 0);
     const double before = opens ? liquidIn(nozzle.touched, grid_.dx, phi, boundary) : 0;
-    for (const Cell& cell : nozzle.cells) phi(cell.cell) = std::min(phi(cell.cell), cell.sdf);
+    for (const Cell& cell : nozzle.cells) {
+      float& level = phi(cell.cell);
+      reshaped_ |= level >= 0 && cell.sdf < 0;
+      level = std::min(level, cell.sdf);
+    }
     const double filling = opens ? liquidIn(nozzle.touched, grid_.dx, phi, boundary) - before : 0;
     poured_.push_back({flux(n, t) * dt + filling * grid_.cellVolume(), nozzle.deepest});
     close(nozzle, boundary);

@@ -46,6 +46,9 @@ class InflowSet {
   const std::vector<PouredVolume>& stamp(double t, double dt, DenseField<float>& phi,
                                          SolidBoundary& boundary);
 
+  /// Whether the last stamp turned air into liquid, or opened or closed a region.
+  bool reshaped() const { return reshaped_; }
+
   /// Writes the nozzle's velocity on the faces it covers (full speed also where they are covered in part: the
   /// flux is the boundary's, this is what advection sees). Call after advection, before projection.
   void setVelocity(MacVelocity& velocity) const;
@@ -95,6 +98,7 @@ class InflowSet {
   std::vector<PouredVolume> poured_;
   DenseField<float> balance_;  // net prescribed outflow per cell, zero between calls [m/s]
   std::uint64_t seed_;
+  bool reshaped_ = false;
 };
 
 }  // namespace spume::fluid

@@ -19,7 +19,7 @@ struct EscapedMarker {
   Eigen::Vector3d position;  ///< [m]
   Eigen::Vector3d velocity;  ///< of the liquid there [m/s]
   double gas;                ///< air it carries, raw share [m^3]
-  double speed;              ///< remembered speed relative to the receiving liquid [m/s]
+  double speed;              ///< of the streams that meet there, see impact_speed.h [m/s]
 };
 
 /// A closed pocket of air too small for the grid to keep (2 to 4 cells), filled with liquid by this step.
@@ -28,7 +28,7 @@ struct CollapsedPocket {
   Eigen::Vector3d velocity;  ///< of the liquid around it [m/s]
   double gas;                ///< [m^3]
   int cells;
-  double speed;  ///< mean remembered speed of the positive markers in it [m/s]
+  double speed;  ///< of the streams that meet there, see impact_speed.h [m/s]
 };
 
 /// Gas of bubbles under the surface, which the grid liquid must make room for.

@@ -21,6 +21,10 @@ constexpr int kStencilReach = 3;
 /// More sub-steps than this in one step mean that the velocity has run away.
 constexpr int kMaxSubSteps = 2000;
 
+/// Sub-steps between two looks at how much liquid each marker stands for: a thinning sheet changes it over
+/// many.
+constexpr int kSubStepsPerDropVolume = 4;
+
 /// Steps that fill an interval up to round-off must not be given one more.
 constexpr double kRoundOff = 1e-9;
 
@@ -124,10 +128,9 @@ void LiquidStages::correctSurface() {
   extension.apply(state.phi);
 }
 
-void LiquidStages::loseMarkers(double dt) {
+void LiquidStages::loseMarkers() {
   const MarkerScene scene = markerScene();
   escape.refreshGas(scene, state.phi, state.positive);
-  escape.refreshSpeed(scene, state.phi, state.velocity, dt, state.positive);
   escape.releaseEscaped(scene, state.phi, state.velocity, state.positive, escaped);
 }
 
@@ -138,6 +141,7 @@ void LiquidStages::moveDrops(double dt, LiquidStepReport& report) {
   DropFlight flight = fly(scene, state.phi, dt, state.drops);
   landed = std::move(flight.landed);
   for (const Drop& drop : landed) volumeControl.deposit(drop.position, drop.volume);
+  if (state.subSteps % kSubStepsPerDropVolume == 0) drops.refreshVolumes(scene, state.phi, state.negative);
   for (Drop& drop : drops.launch(scene, state.phi, state.velocity, state.negative)) {
     drop.volume = volumeControl.withdraw(drop.position, drop.volume);
     if (!(drop.volume > 0)) continue;
@@ -166,8 +170,9 @@ void LiquidStages::findPockets(double t) {
 void LiquidStages::fillPockets(double dt) {
   pockets.find(state.grid, state.phi, solids, outflows.openCells(state.time + dt));
   const auto filled = pockets.fillSmall(state.grid, solids, state.velocity, state.phi);
-  collapsePockets(state.grid, filled, sorter, cellMark, state.positive, collapsed);
-  pocketsChange = !filled.empty() || !setup.inflows.empty();
+  collapsePockets(markerScene(), filled, state.phi, state.velocity, sorter, cellMark, state.positive,
+                  collapsed);
+  pocketsFilled = !filled.empty();
 }
 
 void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& report) {
@@ -176,7 +181,7 @@ void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& rep
   extension.apply(state.phi);
   bodies.find(state.grid, state.phi, solids);
   volumeControl.update(bodies, state.velocity, dt, poured, gas);
-  if (pocketsChange) findPockets(state.time + dt);
+  if (pocketsFilled || inflows.reshaped()) findPockets(state.time + dt);
   pocketBooks.update(pockets, state.velocity, dt);
 }
 
@@ -221,7 +226,7 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("transport", [&] { transport(dt, report); });
   clock.time("correction", [&] { correctSurface(); });
   clock.time("reinitialize", [&] { reinitializer.apply(state.phi, &solids), extension.apply(state.phi); });
-  clock.time("escape", [&] { loseMarkers(dt); });
+  clock.time("escape", [&] { loseMarkers(); });
   clock.time("drops", [&] { moveDrops(dt, report); });
   clock.time("correction", [&] { correctSurface(); });
   clock.time("reseed", [&] { reseed(); });

@@ -63,7 +63,7 @@ struct LiquidStages {
   std::vector<CollapsedPocket> collapsed;
   std::size_t escapedBefore = 0, collapsedBefore = 0;
   double maxSpeed = 0;
-  bool pocketsChange = false;  // after they were found in this sub-step
+  bool pocketsFilled = false;  // after they were found in this sub-step
 
   MarkerScene markerScene() const { return {state.grid, params, setup.walls, solids}; }
   double longestStep() const;
@@ -73,7 +73,7 @@ struct LiquidStages {
   void moveSolids(double dt);
   void transport(double dt, LiquidStepReport& report);
   void correctSurface();
-  void loseMarkers(double dt);
+  void loseMarkers();
   void moveDrops(double dt, LiquidStepReport& report);
   void reseed();
   void findPockets(double t);

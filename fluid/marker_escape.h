@@ -1,17 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "fluid/dense_field.h"
 #include "fluid/liquid_solver.h"
+#include "fluid/lost_markers.h"
 #include "fluid/marker_particles.h"
 #include "fluid/marker_shares.h"
 
 namespace spume::fluid {
 
-/// What positive markers remember for entrainment: how much air each stands for, how fast it met the liquid,
-/// and when it is lost under the surface (model, "Coupling", rules 1 to 3).
+/// What positive markers remember for entrainment: how much air each stands for, and when
+/// it is lost under the surface (model, "Coupling", rules 1 and 2).
 class MarkerEscape {
  public:
   explicit MarkerEscape(const GridSpec& grid) : shares_(grid), sorter_(grid) {}
@@ -21,20 +21,15 @@ class MarkerEscape {
   /// out.
   double refreshGas(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& positive);
 
-  /// Rule 3: speed = max(speed exp(-dt/speedMemory), |u(x) - u(x_body)|) while phi > 0, and decays below.
-  /// x_body lies kBodyDepth cells under the surface, along -grad phi: the liquid the marker would sink into.
-  void refreshSpeed(const MarkerScene& scene, const DenseField<float>& phi, const MacVelocity& velocity,
-                    double dt, MarkerSet& positive);
-
   /// Rule 1: positive markers with phi < -r and phi < -escapeDepth dx leave the set; they are appended to
-  /// `escaped` in the order of the set.
+  /// `escaped` in the order of the set, with the impact speed at their place (rule 3).
   void releaseEscaped(const MarkerScene& scene, const DenseField<float>& phi, const MacVelocity& velocity,
                       MarkerSet& positive, std::vector<EscapedMarker>& escaped);
 
  private:
   MarkerShares shares_;
   MarkerSorter sorter_;
-  std::vector<std::vector<std::int32_t>> leaving_;  ///< of each chunk of markers
+  LostMarkers lost_;
 };
 
 }  // namespace spume::fluid

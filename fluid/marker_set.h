@@ -12,7 +12,6 @@ struct MarkerSet {
   std::vector<float> x, y, z;  ///< position [cells]
   std::vector<float> radius;   ///< [cells], within markerRadiusMin..markerRadiusMax
   std::vector<float> gas;      ///< volume the marker stands for [m^3]: air if positive, liquid if negative
-  std::vector<float> speed;    ///< largest recent speed relative to the receiving liquid [m/s]; positive only
   std::vector<std::uint8_t> escaped;  ///< 1 while on the wrong side by more than its radius
 
   std::size_t size() const { return x.size(); }
@@ -20,7 +19,7 @@ struct MarkerSet {
   /// Calls visit(column) for every column, in the order of declaration.
   template <typename Visit>
   void forEachColumn(const Visit& visit) {
-    visit(x), visit(y), visit(z), visit(radius), visit(gas), visit(speed), visit(escaped);
+    visit(x), visit(y), visit(z), visit(radius), visit(gas), visit(escaped);
   }
   void resize(std::size_t n) {
     forEachColumn([n](auto& column) { column.resize(n); });
@@ -30,12 +29,12 @@ struct MarkerSet {
       column.insert(column.end(), more.begin(), more.end());
     };
     join(x, other.x), join(y, other.y), join(z, other.z), join(radius, other.radius);
-    join(gas, other.gas), join(speed, other.speed), join(escaped, other.escaped);
+    join(gas, other.gas), join(escaped, other.escaped);
   }
-  /// Appends a marker with no gas, no remembered speed, on its own side.
+  /// Appends a marker with no gas, on its own side.
   void append(float px, float py, float pz, float r) {
     x.push_back(px), y.push_back(py), z.push_back(pz), radius.push_back(r);
-    gas.push_back(0), speed.push_back(0), escaped.push_back(0);
+    gas.push_back(0), escaped.push_back(0);
   }
 };
 

@@ -63,7 +63,7 @@ void MarkerSorter::permute(MarkerSet& markers) {
     column.swap(scratch);
   };
   for (std::vector<float>* column :
-       {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas, &markers.speed})
+       {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas})
     reorder(*column, column_);
   reorder(markers.escaped, flags_);
 }

@@ -10,9 +10,10 @@ namespace spume::fluid {
 
 /// Takes the positive markers out of the cells of filled pockets: a pocket pays its gas instead of them
 /// (model, Section 4 rule 5), and left behind they would carve it open again. Pockets of one cell are marker
-/// noise and pay nothing; the others are appended to `collapsed` with the largest speed their markers
-/// remember. `cellMark` is scratch: -1 everywhere, and again afterwards.
-void collapsePockets(const GridSpec& grid, const std::vector<FilledPocket>& filled, MarkerSorter& sorter,
+/// noise and pay nothing; the others are appended to `collapsed` with the impact speed at their
+/// centroid. `cellMark` is scratch: -1 everywhere, and again afterwards.
+void collapsePockets(const MarkerScene& scene, const std::vector<FilledPocket>& filled,
+                     const DenseField<float>& phi, const MacVelocity& velocity, MarkerSorter& sorter,
                      DenseField<std::int32_t>& cellMark, MarkerSet& positive,
                      std::vector<CollapsedPocket>& collapsed);
 

@@ -21,15 +21,6 @@ std::vector<fluid::EscapedMarker> leavers(int n, double gas, double speed) {
   return markers;
 }
 
-constexpr double kStep = 0.01;  // [s]
-
-/// Without the onset by quantity, so that every leaver that is fast enough pays.
-EntrainmentSpec payingAtOnce() {
-  EntrainmentSpec spec;
-  spec.onsetBubbles = 0;
-  return spec;
-}
-
 double gasOf(const std::vector<Birth>& births) {
   double sum = 0;
   for (const Birth& b : births) sum += ball(b.bubble.radius);
@@ -37,14 +28,14 @@ double gasOf(const std::vector<Birth>& births) {
 }
 
 TEST(Entrainment, GasOfLeaversEqualsBubblesPlusReservoirs) {
-  const EntrainmentSpec spec = payingAtOnce();
+  const EntrainmentSpec spec = EntrainmentSpec{};
   const double dx = 2.5e-3;
   const Entrainment entrainment(spec, dx, 7);
   Reservoirs reservoirs;
   GasLedger ledger;
   double born = 0;
   for (int step = 0; step < 20; ++step)
-    born += gasOf(entrainment.step(leavers(300, 1e-9, 1.01 * spec.onset), {}, kStep, reservoirs, ledger));
+    born += gasOf(entrainment.step(leavers(300, 1e-9, 1.01 * spec.onset), {}, reservoirs, ledger));
   const double paid = 20 * 300 * 1e-9 * spec.length / dx;
   EXPECT_NEAR(ledger.bornMarkers, paid, kRoundOff * paid);
   EXPECT_NEAR(born + ledger.inReservoirs, paid, kRoundOff * paid);
@@ -55,8 +46,7 @@ TEST(Entrainment, SlowLeaversAreBookedAndGiveNoBubble) {
   Reservoirs reservoirs;
   GasLedger ledger;
   EXPECT_TRUE(
-      entrainment.step(leavers(1000, 1e-8, 0.99 * EntrainmentSpec{}.onset), {}, kStep, reservoirs, ledger)
-          .empty());
+      entrainment.step(leavers(1000, 1e-8, 0.99 * EntrainmentSpec{}.onset), {}, reservoirs, ledger).empty());
   EXPECT_EQ(ledger.bornMarkers, 0);
   const double lost = 1000 * 1e-8 * 3.6e-3 / 2.5e-3;
   EXPECT_NEAR(ledger.notEntrained, lost, kRoundOff * lost);
@@ -64,42 +54,15 @@ TEST(Entrainment, SlowLeaversAreBookedAndGiveNoBubble) {
 
 TEST(Entrainment, CountDoesNotDependOnHowTheGasIsSplit) {
   // The same gas at the same place through few heavy and many light markers pays the very same radii.
-  const Entrainment entrainment(payingAtOnce(), 2.5e-3, 7);
+  const Entrainment entrainment(EntrainmentSpec{}, 2.5e-3, 7);
   Reservoirs heavyBlocks, lightBlocks;
   GasLedger heavyLedger, lightLedger;
   const std::vector<fluid::EscapedMarker> heavy(64, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-28, 2.0});
   const std::vector<fluid::EscapedMarker> light(1024, {{0.01, 0.01, 0.01}, {0, 0, 0}, 0x1p-32, 2.0});
-  const auto few = entrainment.step(heavy, {}, kStep, heavyBlocks, heavyLedger);
-  const auto many = entrainment.step(light, {}, kStep, lightBlocks, lightLedger);
+  const auto few = entrainment.step(heavy, {}, heavyBlocks, heavyLedger);
+  const auto many = entrainment.step(light, {}, lightBlocks, lightLedger);
   ASSERT_EQ(few.size(), many.size());
   for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].bubble.radius, many[i].bubble.radius);
-}
-
-/// Gas in mean bubbles that a block takes of what is offered at `rate` [mean bubbles/s] for a second.
-double takenOfRate(double rate) {
-  const EntrainmentSpec spec;
-  const Entrainment entrainment(spec, spec.length, 7);  // L_e = dx: no scaling
-  double mean = 0;
-  const int draws = 20000;
-  for (int i = 0; i < draws; ++i) mean += ball(entrainment.drawRadius({1, 2, 3}, i)) / draws;
-  Reservoirs reservoirs;
-  GasLedger ledger;
-  for (double time = 0; time < 1; time += kStep)
-    entrainment.step({{{0.001, 0.001, 0.001}, {0, 0, 0}, rate * kStep * mean, 2}}, {}, kStep, reservoirs,
-                     ledger);
-  EXPECT_NEAR(ledger.bornMarkers + ledger.notEntrained, rate * mean, 0.02 * rate * mean);
-  return ledger.bornMarkers / mean;
-}
-
-TEST(Entrainment, BlockTakesGasThatComesFastEnough) {
-  const EntrainmentSpec spec;
-  // Offered at a steady rate, recent tends to rate x memory: the onset is at this rate.
-  const double onset = spec.onsetBubbles / spec.onsetMemory;
-  EXPECT_EQ(takenOfRate(0.9 * onset), 0);
-  // From rest, recent reaches the onset after memory x ln(1 / (1 - onset/rate)).
-  const double rate = 2 * onset, wait = spec.onsetMemory * std::log(2);
-  constexpr double kSteps = 2;  // the wait ends between two steps, and recent starts one step full
-  EXPECT_NEAR(takenOfRate(rate), rate * (1 - wait), rate * kSteps * kStep);
 }
 
 TEST(Entrainment, RadiiFollowTheCutLognormal) {
@@ -123,12 +86,12 @@ TEST(Entrainment, RadiiFollowTheCutLognormal) {
 }
 
 TEST(Entrainment, PocketsPayTheirGasUnderTheirOwnCause) {
-  const Entrainment entrainment(payingAtOnce(), 3.6e-3, 3);  // L_e = dx: no scaling
+  const Entrainment entrainment(EntrainmentSpec{}, 3.6e-3, 3);  // L_e = dx: no scaling
   Reservoirs reservoirs;
   GasLedger ledger;
   const double gas = 5e-8;
   const auto births =
-      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 1.2}}, kStep, reservoirs, ledger);
+      entrainment.step({}, {{{0.02, 0.03, 0.01}, {0, 0, 0}, gas, 3, 1.2}}, reservoirs, ledger);
   EXPECT_NEAR(gasOf(births) + ledger.inReservoirs, gas, kRoundOff * gas);
   EXPECT_NEAR(ledger.bornPockets, gas, kRoundOff * gas);
   ASSERT_FALSE(births.empty());

@@ -72,12 +72,12 @@ TEST(Drops, CarryTheVolumeOfTheLiquidThatTheGridLost) {
   air.phi = levelSet(air.grid, ball);
   MarkerSet positive, negative;
   MarkerSeeder(air.grid).reseed(air.scene(), air.phi, 0, positive, negative);
-  MarkerShares shares(air.grid);
-  const double share = shares.refresh(air.scene(), air.phi, MarkerSign::negative, negative);
+  Drops drops(air.grid);
+  const double share = drops.refreshVolumes(air.scene(), air.phi, negative);
   EXPECT_NEAR(share / liquidVolume(air.grid, air.phi, air.solids), 1, 0.05);  // slivers hold no marker
   air.phi.fill(kLevelSetBand * static_cast<float>(air.grid.dx));              // the grid loses the ball
   const MacVelocity fall = macField(air.grid, [](const auto&) { return Eigen::Vector3d(0, -1, 0); });
-  const std::vector<Drop> launched = Drops(air.grid).launch(air.scene(), air.phi, fall, negative);
+  const std::vector<Drop> launched = drops.launch(air.scene(), air.phi, fall, negative);
   EXPECT_NEAR(volumeOf(launched) / share, 1, 1e-5);  // float shares
   EXPECT_EQ(negative.size(), 0u);
   EXPECT_NEAR(momentumOf(launched, 1000).y() / (-1000 * volumeOf(launched)), 1, 1e-6);

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "fluid/impact_speed.h"
 #include "fluid/marker_correction.h"
 #include "fluid/marker_escape.h"
 #include "fluid/marker_particles.h"
@@ -195,17 +196,32 @@ TEST(MarkerEscape, FreezesTheShareUnderTheSurface) {
   EXPECT_EQ(pool.positive.gas[0], share);
 }
 
-TEST(MarkerEscape, RemembersTheSpeedRelativeToTheLiquidBelow) {
+/// Two streams side by side under a flat surface: a jet to the right of x = 1/2, a pool at rest to the left;
+/// above the surface the air blows at 10 m/s.
+Eigen::Vector3d jetIntoPool(const Eigen::Vector3d& x) {
+  if (x.y() > 0.5) return {10, 0, 0};
+  return {0, x.x() > 0.5 ? -1.6 : 0.0, 0};
+}
+
+TEST(ImpactSpeed, IsTheDifferenceOfTheStreamsWhereverInTheirLayer) {
+  for (const int cells : {16, 32}) {
+    Pool pool(cells, flat);
+    pool.params.impactReach = 0.2;
+    const MacVelocity streams = macField(pool.grid, jetIntoPool);
+    for (const double x : {0.44, 0.46, 0.56})
+      EXPECT_NEAR(impactSpeed(pool.scene(), pool.phi, streams, {x, 0.4, 0.5}), 1.6, 1e-6) << cells;
+    EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.25, 0.25, 0.5}), 0) << cells;  // pool alone
+    EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.8, 0.25, 0.5}), 0) << cells;   // jet alone
+    EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.5, 0.8, 0.5}), 0) << cells;    // air alone
+  }
+}
+
+TEST(ImpactSpeed, ReachesThreeCellsWhereTheGridIsCoarse) {
   Pool pool(16, flat);
-  pool.positive.append(8, 8.5f, 8, 0.5f);
-  const MacVelocity shear = macField(
-      pool.grid, [](const Eigen::Vector3d& x) { return Eigen::Vector3d(x.y() > 0.4 ? 2.0 : 0.5, 0, 0); });
-  MarkerEscape escape(pool.grid);
-  escape.refreshSpeed(pool.scene(), pool.phi, shear, 0.01, pool.positive);
-  EXPECT_NEAR(pool.positive.speed[0], 1.5, 1e-5);  // three cells below it is slower by this
-  const MacVelocity uniform = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(3, 0, 0); });
-  escape.refreshSpeed(pool.scene(), pool.phi, uniform, pool.params.speedMemory, pool.positive);
-  EXPECT_NEAR(pool.positive.speed[0], 1.5 * std::exp(-1), 1e-5);  // after one decay time
+  pool.params.impactReach = 1e-4;
+  const MacVelocity streams = macField(pool.grid, jetIntoPool);
+  EXPECT_NEAR(impactSpeed(pool.scene(), pool.phi, streams, {0.5, 0.3, 0.5}), 1.6, 1e-6);
+  EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.5 - 4 * pool.grid.dx, 0.3, 0.5}), 0);
 }
 
 TEST(MarkerEscape, ReleasesMarkersBelowTheEscapeDepthOnly) {
@@ -214,14 +230,13 @@ TEST(MarkerEscape, ReleasesMarkersBelowTheEscapeDepthOnly) {
   pool.positive.append(8, 6.9f, 8, 0.1f);  // 1.1 cells deep
   pool.positive.append(8, 8.4f, 8, 0.4f);
   pool.positive.gas = {1, 2, 3};
-  pool.positive.speed = {4, 5, 6};
   std::vector<EscapedMarker> escaped;
   MarkerEscape escape(pool.grid);
   const MacVelocity sink = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(0, -1, 0); });
   escape.releaseEscaped(pool.scene(), pool.phi, sink, pool.positive, escaped);
   ASSERT_EQ(escaped.size(), 1u);
   EXPECT_EQ(escaped[0].gas, 2);
-  EXPECT_EQ(escaped[0].speed, 5);
+  EXPECT_EQ(escaped[0].speed, 0);  // all sinks together
   EXPECT_NEAR(escaped[0].position.y(), 6.9 * pool.grid.dx, 1e-6);
   EXPECT_NEAR(escaped[0].velocity.y(), -1, 1e-6);
   EXPECT_EQ(pool.positive.size(), 2u);
