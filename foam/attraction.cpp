@@ -7,6 +7,30 @@
 #include "foam/forces/weak_attraction.h"
 
 namespace spume::foam {
+namespace {
+
+/// Gradient of psi over the width of each listed bubble, by central differences: at a flat solid the normal,
+/// shorter where walls meet, and continuous everywhere.
+Eigen::Matrix3Xd slopesAcross(const LiquidSampler& liquid, const BubbleStore& bubbles,
+                              const std::vector<std::size_t>& listed) {
+  const auto n = static_cast<Eigen::Index>(listed.size());
+  Eigen::Matrix3Xd slope = Eigen::Matrix3Xd::Zero(3, n), point(3, n);
+  Eigen::VectorXd psi(n);
+  if (n == 0) return slope;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const std::size_t i = listed[static_cast<std::size_t>(k)];
+        point.col(k) = bubbles.position[i] + side * bubbles.radius[i] * Eigen::Vector3d::Unit(axis);
+      }
+      liquid.psi(point, psi);
+      for (Eigen::Index k = 0; k < n; ++k)
+        slope(axis, k) += side * psi[k] / (2 * bubbles.radius[listed[static_cast<std::size_t>(k)]]);
+    }
+  return slope;
+}
+
+}  // namespace
 
 void Attraction::findPairs(const FoamParams& params, const BubbleStore& bubbles,
                            const FoamTopology& topology) {
@@ -16,8 +40,34 @@ void Attraction::findPairs(const FoamParams& params, const BubbleStore& bubbles,
     finder_.find(bubbles.position, bubbles.radius, bubbles.id, floats_, topology, range, pairs_);
 }
 
+void Attraction::addPairs(const FoamParams& params, const BubbleStore& bubbles, Vectors3& force) const {
+  const std::vector<double>&gas = bubbles.gas, &radius = bubbles.radius, &weight = bubbles.surfaceWeight;
+  for (const WeakPair& pair : pairs_) {
+    const double pull =
+        weight[pair.i] * weight[pair.j] *
+        weakAttraction(params, gas[pair.i], radius[pair.i], gas[pair.j], radius[pair.j], pair.distance);
+    const Eigen::Vector3d step = (bubbles.position[pair.j] - bubbles.position[pair.i]) / pair.distance;
+    force[pair.i] += pull * step, force[pair.j] -= pull * step;
+  }
+}
+
+void Attraction::addSolids(const FoamParams& params, const BubbleStore& bubbles, const Surroundings& around,
+                           const LiquidSampler& liquid, Vectors3& force) const {
+  const double range = kAttractionRange * capillaryLength(params);
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < bubbles.size(); ++i)
+    if (floats_[i] && around.psi[i] < range && !bubbles.touchedSolid[i]) drawn.push_back(i);
+  const Eigen::Matrix3Xd slope = slopesAcross(liquid, bubbles, drawn);
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    const std::size_t i = drawn[k];
+    const SolidSurface& solid = params.surfaceOf(around.solid[i]);
+    const double pull = solidAttraction(params, solid, bubbles.gas[i], bubbles.radius[i], around.psi[i]);
+    force[i] -= bubbles.surfaceWeight[i] * pull * slope.col(static_cast<Eigen::Index>(k));
+  }
+}
+
 void Attraction::compute(const FoamParams& params, const BubbleStore& bubbles, const Surroundings& around,
-                         const FoamTopology& topology, Vectors3& force) {
+                         const LiquidSampler& liquid, const FoamTopology& topology, Vectors3& force) {
   const std::size_t n = bubbles.size();
   force.assign(n, Eigen::Vector3d::Zero());
   floats_.resize(n);
@@ -27,20 +77,8 @@ void Attraction::compute(const FoamParams& params, const BubbleStore& bubbles, c
   const bool anyFloats = std::find(floats_.begin(), floats_.end(), 1) != floats_.end();
   if (params.attractionLaw == AttractionLaw::none || !anyFloats) return;
   findPairs(params, bubbles, topology);
-  const std::vector<double>&gas = bubbles.gas, &radius = bubbles.radius, &weight = bubbles.surfaceWeight;
-  for (const WeakPair& pair : pairs_) {
-    const double pull =
-        weight[pair.i] * weight[pair.j] *
-        weakAttraction(params, gas[pair.i], radius[pair.i], gas[pair.j], radius[pair.j], pair.distance);
-    const Eigen::Vector3d step = (bubbles.position[pair.j] - bubbles.position[pair.i]) / pair.distance;
-    force[pair.i] += pull * step, force[pair.j] -= pull * step;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!floats_[i] || around.psi[i] <= radius[i] || bubbles.touchedSolid[i]) continue;
-    const SolidSurface& solid = params.surfaceOf(around.solid[i]);
-    force[i] -=
-        weight[i] * solidAttraction(params, solid, gas[i], radius[i], around.psi[i]) * around.gradPsi.col(i);
-  }
+  addPairs(params, bubbles, force);
+  addSolids(params, bubbles, around, liquid, force);
 }
 
 }  // namespace spume::foam

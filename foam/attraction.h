@@ -4,6 +4,7 @@
 #include "foam/bubble_store.h"
 #include "foam/foam_params.h"
 #include "foam/foam_topology.h"
+#include "foam/liquid_sampler.h"
 #include "foam/surroundings.h"
 #include "foam/weak_pairs.h"
 
@@ -14,11 +15,18 @@ namespace spume::foam {
 class Attraction {
  public:
   /// Sets `force` to the pull on every bubble [N].
+  /// Deviation: [Busaryev 2012, Eq. 8] lets go of a bubble the moment it touches, and turns at once where the
+  /// nearest wall changes; a raft at walls then jitters for ever. Here the pull lasts while a bubble touches
+  /// (the wall's spring holds it; one that adheres is held by its adhesion), and its direction is the slope
+  /// of psi across the bubble, which turns smoothly.
   void compute(const FoamParams& params, const BubbleStore& bubbles, const Surroundings& around,
-               const FoamTopology& topology, Vectors3& force);
+               const LiquidSampler& liquid, const FoamTopology& topology, Vectors3& force);
 
  private:
   void findPairs(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology);
+  void addPairs(const FoamParams& params, const BubbleStore& bubbles, Vectors3& force) const;
+  void addSolids(const FoamParams& params, const BubbleStore& bubbles, const Surroundings& around,
+                 const LiquidSampler& liquid, Vectors3& force) const;
 
   WeakPairs finder_;
   std::vector<WeakPair> pairs_;

@@ -166,7 +166,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("volume");
   weighSurface(s.around, s.topology, s.neighbours, s.next);
   clock.end("classes");
-  s.attraction.compute(s.params, s.next, s.around, s.topology, s.pull);
+  s.attraction.compute(s.params, s.next, s.around, liquid, s.topology, s.pull);
   clock.end("attraction");
   s.integrator.describe(s.around, s.pull, s.next);
   s.integrator.predict(dt);

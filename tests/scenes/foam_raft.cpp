@@ -54,6 +54,25 @@ TEST(FoamRaft, SmallBubblesComeToRest) {
     }
 }
 
+void expectRestWithAttraction(Preset preset, AttractionLaw law) {
+  constexpr double kRest = 1e-4;  // as without attraction
+  FoamParams params = makePreset(preset);
+  params.attractionLaw = law;
+  for (const double dt : {0.005, 0.02}) {
+    const Settled raft(params, 300, 0.375e-3, 1.25e-3, 30e-3, dt);
+    EXPECT_LE(rmsSpeed(raft.bubbles), kRest) << dt;
+    EXPECT_LE(raft.deepestInWall, 0.1);
+  }
+}
+
+TEST(FoamRaft, SmallBubblesDrawnByThePapersLawComeToRest) {
+  expectRestWithAttraction(Preset::paper, AttractionLaw::coefficient);
+}
+
+TEST(FoamRaft, SmallBubblesDrawnByCapillaryForcesComeToRest) {
+  expectRestWithAttraction(Preset::physical, AttractionLaw::capillary);
+}
+
 TEST(FoamRaft, NewtonsVolumesComeToRestExactly) {
   constexpr double kRest = 1e-4,
                    kExact = 1e-6;  // a projection at full strength leaves round-off and the last step

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "foam/attraction.h"
 #include "foam/forces/solid_adhesion.h"
 #include "foam/forces/solid_attraction.h"
 #include "foam/forces/weak_attraction.h"
@@ -98,6 +99,51 @@ TEST(SolidAttraction, PaperLawIsBoundedAtTheWall) {
   params.attractionLaw = AttractionLaw::coefficient;
   EXPECT_DOUBLE_EQ(solidAttraction(params, {}, 1e-9, 2e-3, 0), 2e-7 / 2e-3);
   EXPECT_DOUBLE_EQ(solidAttraction(params, {}, 1e-9, 2e-3, 5e-3), 2e-7 / 5e-3);
+}
+
+/// Pull on a lone bubble of 1 mm afloat at (x, 0, z) in a corner with walls at x = 0 and z = 0 [N].
+Eigen::Vector3d pullInCorner(const FoamParams& params, double x, double z) {
+  StillPoolParams pool;
+  pool.lower = {0, -1, 0}, pool.closed = {true, false, false, false, true, false};
+  const StillPool corner(pool);
+  BubbleStore bubbles;
+  bubbles.add(bubbleAt({x, 0, z}, 1e-3, {0, 0, 0}, BubbleClass::surface));
+  bubbles.surfaceWeight[0] = 1;
+  Surroundings around;
+  around.sample(corner, bubbles.positions());
+  Vectors3 force;
+  Attraction().compute(params, bubbles, around, corner, {}, force);
+  return force[0];
+}
+
+TEST(SolidAttraction, IsTheLawAtAFlatWallAndLastsWhileABubbleTouches) {
+  constexpr double kRoundOff = 1e-12, kFar = 0.5;
+  for (const AttractionLaw law : {AttractionLaw::coefficient, AttractionLaw::capillary}) {
+    FoamParams params = makePreset(Preset::paper);
+    params.attractionLaw = law;
+    for (const double psi : {0.999e-3, 1.001e-3, 3e-3}) {
+      const Eigen::Vector3d pull = pullInCorner(params, psi, kFar);
+      const double exact = solidAttraction(params, params.walls, ballVolume(1e-3), 1e-3, psi);
+      EXPECT_NEAR(pull.x(), -exact, kRoundOff * exact);
+      EXPECT_LE(std::abs(pull.z()), kRoundOff * exact);
+    }
+  }
+}
+
+/// The nearest wall changes on the diagonal; the pull's direction must not jump there.
+TEST(SolidAttraction, TurnsSmoothlyFromWallToWall) {
+  FoamParams params = makePreset(Preset::physical);
+  params.attractionLaw = AttractionLaw::capillary;
+  const double step = 1e-5;                   // [m], a hundredth of the radius
+  const double turn = 0.5 * step / 1e-3 * 2;  // the slope goes from wall to wall over the bubble's width
+  Eigen::Vector3d last = pullInCorner(params, 3e-3, 1.5e-3);
+  for (double z = 1.5e-3; z < 4.5e-3; z += step) {
+    const Eigen::Vector3d pull = pullInCorner(params, 3e-3, z);
+    EXPECT_LE((pull - last).norm(), 2 * turn * std::max(pull.norm(), last.norm())) << z;
+    last = pull;
+  }
+  const Eigen::Vector3d diagonal = pullInCorner(params, 3e-3, 3e-3);
+  EXPECT_NEAR(diagonal.x(), diagonal.z(), 1e-12 * diagonal.norm());
 }
 
 /// A sticky vertical wall x = 0 with liquid on its positive side, and a bubble that touches it.
