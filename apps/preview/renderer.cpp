@@ -60,9 +60,9 @@ Vec3 Canvas::sample(int x, int y, int samples) const {
   return sum / static_cast<float>(samples * samples);
 }
 
+/// One ray a pixel: smooth parts need no more.
 void Canvas::render() {
-  forEachPixel(
-      [&](int x, int y) { pixel_[std::size_t(y) * settings_.width + x] = sample(x, y, settings_.samples); });
+  forEachPixel([&](int x, int y) { pixel_[std::size_t(y) * settings_.width + x] = sample(x, y, 1); });
 }
 
 bool Canvas::isEdge(int x, int y) const {
@@ -72,18 +72,17 @@ bool Canvas::isEdge(int x, int y) const {
     if (u < 0 || v < 0 || u >= settings_.width || v >= settings_.height) return false;
     return (at(u, v) - here).cwiseAbs().maxCoeff() > kContrast;
   };
-  return differs(x - 1, y) || differs(x + 1, y) || differs(x, y - 1) || differs(x, y + 1);
+  for (int v = y - 1; v <= y + 1; ++v)
+    for (int u = x - 1; u <= x + 1; ++u)
+      if (differs(u, v)) return true;
+  return false;
 }
 
+/// Pixels that differ from one of their eight neighbours get a whole lattice of rays.
 void Canvas::refineEdges() {
   std::vector<Vec3> refined = pixel_;
-  const int more = settings_.samples + 1;  // another lattice, so that the two together are finer than either
-  const float first = static_cast<float>(settings_.samples * settings_.samples),
-              second = static_cast<float>(more * more);
   forEachPixel([&](int x, int y) {
-    if (isEdge(x, y))
-      refined[std::size_t(y) * settings_.width + x] =
-          (first * at(x, y) + second * sample(x, y, more)) / (first + second);
+    if (isEdge(x, y)) refined[std::size_t(y) * settings_.width + x] = sample(x, y, settings_.samples + 1);
   });
   pixel_.swap(refined);
 }

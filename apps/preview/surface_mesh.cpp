@@ -1,7 +1,13 @@
 #include "apps/preview/surface_mesh.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
 
 #include "fluid/parallel.h"
 
@@ -122,10 +128,47 @@ SurfaceMesh meshSlab(const Lattice& lattice, int i) {
   return mesh;
 }
 
+using Distance = std::function<double(const Eigen::Vector3d&)>;
+
+/// The distance at all cell centres near the surface, and its sign elsewhere: blocks that the distance at
+/// their middle shows to be far from the surface take that value. Twice the reach allows for functions
+/// steeper than a distance.
+DenseField<float> sampleNearSurface(const Distance& distance, const GridSpec& grid) {
+  constexpr int kBlock = 4;  // cells
+  const double reach = 2 * std::sqrt(3.0) * (0.5 * kBlock + 1) * grid.dx;
+  DenseField<float> sampled(grid.cells);
+  const auto fillBlock = [&](const Eigen::Vector3i& from) {
+    const Eigen::Vector3i to = (from.array() + kBlock).min(grid.cells.array());
+    const Eigen::Vector3d middle =
+        grid.origin + grid.dx * (from.cast<double>() + Eigen::Vector3d::Constant(0.5 * kBlock));
+    const double there = distance(middle);
+    for (int i = from.x(); i < to.x(); ++i)
+      for (int j = from.y(); j < to.y(); ++j)
+        for (int k = from.z(); k < to.z(); ++k)
+          sampled(i, j, k) =
+              static_cast<float>(std::abs(there) > reach ? there : distance(grid.cellCentre(i, j, k)));
+  };
+  tbb::parallel_for(0, (grid.cells.x() + kBlock - 1) / kBlock, [&](int slab) {
+    for (int j = 0; j < grid.cells.y(); j += kBlock)
+      for (int k = 0; k < grid.cells.z(); k += kBlock) fillBlock({slab * kBlock, j, k});
+  });
+  return sampled;
+}
+
+/// Numbers of the corners, equal ones next to each other.
+std::vector<std::uint32_t> cornersInOrder(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.position.size());
+  std::iota(order.begin(), order.end(), 0u);
+  tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Eigen::Vector3f &p = mesh.position[a], &q = mesh.position[b];
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  });
+  return order;
+}
+
 /// One Newton step along the gradient, but not off a wall of the box.
-void moveOntoSurface(const std::function<double(const Eigen::Vector3d&)>& distance,
-                     const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double dx,
-                     Eigen::Vector3f& position, Eigen::Vector3f& normal) {
+void moveOntoSurface(const Distance& distance, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                     double dx, Eigen::Vector3f& position, Eigen::Vector3f& normal) {
   constexpr double kStep = 0.05;  // of the central differences, in cells: rounds sharp edges by about as much
   const Eigen::Vector3d x = position.cast<double>();
   Eigen::Vector3d gradient;
@@ -158,21 +201,23 @@ SurfaceMesh meshLevelSet(const GridSpec& grid, const DenseField<float>& phi, con
   return mesh;
 }
 
-SurfaceMesh meshDistance(const std::function<double(const Eigen::Vector3d&)>& distance,
-                         const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, int cells) {
+SurfaceMesh meshDistance(const Distance& distance, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
+                         int cells) {
   GridSpec grid;
   grid.origin = lower;
   grid.dx = (upper - lower).maxCoeff() / cells;
   grid.cells = ((upper - lower) / grid.dx).array().ceil().cast<int>().max(2);
-  DenseField<float> sampled(grid.cells);
-  tbb::parallel_for(0, grid.cells.x(), [&](int i) {
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k)
-        sampled(i, j, k) = static_cast<float>(distance(grid.cellCentre(i, j, k)));
-  });
-  SurfaceMesh mesh = meshLevelSet(grid, sampled, lower, upper);
-  tbb::parallel_for(std::size_t{0}, mesh.position.size(), [&](std::size_t v) {
-    moveOntoSurface(distance, lower, upper, grid.dx, mesh.position[v], mesh.normal[v]);
+  SurfaceMesh mesh = meshLevelSet(grid, sampleNearSurface(distance, grid), lower, upper);
+  const std::vector<std::uint32_t> order = cornersInOrder(mesh);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size()), [&](const auto& range) {
+    std::size_t n = range.begin();
+    while (n < range.end()) {
+      const Eigen::Vector3f place = mesh.position[order[n]];
+      Vertex moved{place, mesh.normal[order[n]]};
+      moveOntoSurface(distance, lower, upper, grid.dx, moved.position, moved.normal);
+      for (; n < range.end() && mesh.position[order[n]] == place; ++n)
+        mesh.position[order[n]] = moved.position, mesh.normal[order[n]] = moved.normal;
+    }
   });
   return mesh;
 }

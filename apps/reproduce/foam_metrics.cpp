@@ -110,6 +110,13 @@ std::size_t insideSolids(const foam::BubbleStore& bubbles, const Eigen::VectorXd
   return inside;
 }
 
+double deepestInSolids(const foam::BubbleStore& bubbles, const Eigen::VectorXd& toSolids) {
+  double deepest = 0;
+  for (std::size_t i = 0; i < bubbles.size(); ++i)
+    deepest = std::max(deepest, -toSolids[static_cast<Eigen::Index>(i)] / bubbles.radius[i]);
+  return deepest;
+}
+
 BubbleBooks readBooks(const std::string& eventsPath) {
   CsvReader events(eventsPath);
   const std::size_t time = events.column("time"), kind = events.column("kind"), id = events.column("id"),

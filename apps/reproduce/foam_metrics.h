@@ -26,10 +26,12 @@ SurfaceCensus surfaceCensus(const foam::BubbleStore& bubbles, const Eigen::Vecto
 /// O(bubbles + height/step x bubbles along the line).
 int layersAlong(const foam::BubbleStore& bubbles, const foam::FoamTopology& topology, double x, double z);
 
-/// Bubbles whose centre lies deeper in a solid than this share of their radius are inside it: an adhering
-/// bubble's centre rests on the surface, give or take what its spring yields.
-inline constexpr double kInside = 0.1;
+/// Bubbles whose centre lies deeper in a solid than this share of their radius are inside it. The centre of
+/// an adhering bubble rests on the surface, and rocks about it where the liquid has left it in the air.
+inline constexpr double kInside = 0.5;
 std::size_t insideSolids(const foam::BubbleStore& bubbles, const Eigen::VectorXd& toSolids);
+/// How deep the deepest centre lies in a solid, in radii; 0 if none does.
+double deepestInSolids(const foam::BubbleStore& bubbles, const Eigen::VectorXd& toSolids);
 
 /// What events.csv says about the bubbles of a run.
 struct BubbleBooks {

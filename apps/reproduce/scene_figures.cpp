@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 
@@ -77,8 +78,11 @@ void addChecks(const SceneRun& run, const PaperFigures& paper, std::vector<Resul
                          static_cast<double>(run.bubbles().size());
   rows.push_back(aimAtMost(lost, missing, 0, ""));
   ResultRow inside = rowOf(run, "bubbles inside solids, last frame");
-  inside.note = "centre deeper than a tenth of the radius";
   const Eigen::VectorXd toSolids = run.distanceToSolids(run.bubbles().position);
+  char deepest[64];
+  std::snprintf(deepest, sizeof deepest, "centre of the deepest %.2f radii in",
+                deepestInSolids(run.bubbles(), toSolids));
+  inside.note = deepest;
   rows.push_back(aimAtMost(inside, static_cast<double>(insideSolids(run.bubbles(), toSolids)), 0, ""));
 }
 

@@ -9,9 +9,9 @@ namespace spume::apps {
 namespace {
 
 // Lengths in pixels of the picture.
-constexpr double kWidth = 760, kPanel = 340;
-constexpr double kLeft = 78, kRight = 24, kTop = 44, kBottom = 52;
-constexpr double kLegendLine = 18, kLegendInset = 14;
+constexpr double kWidth = 760, kPanel = 350;
+constexpr double kLeft = 78, kRight = 24, kTop = 60, kBottom = 52;
+constexpr double kKey = 52, kLetter = 6.4;  // of the legend: its line and gaps; a letter, on average
 constexpr int kTicks = 6;
 constexpr int kMostDecades = 8;  ///< of a logarithmic axis: what lies lower is cut off
 
@@ -83,8 +83,7 @@ class Panel {
   std::string svg() const {
     std::string text = frame();
     for (std::size_t c = 0; c < plot_.curves.size(); ++c) text += curve(c);
-    for (std::size_t c = 0; c < plot_.curves.size(); ++c) text += legend(c);
-    return text;
+    return text + legend();
   }
 
  private:
@@ -125,7 +124,7 @@ class Panel {
     std::string path;
     bool down = false;
     for (std::size_t n = 0; n < c.x.size(); ++n) {
-      const bool shown = x_.shows(c.x[n]) && y_.shows(c.y[n]);
+      const bool shown = x_.shows(c.x[n]) && y_.shows(c.y[n]) && c.y[n] >= y_.lowest;
       if (shown) path += formatted(down ? "L%.1f %.1f" : "M%.1f %.1f", x_.at(c.x[n]), y_.at(c.y[n]));
       down = shown;
     }
@@ -133,17 +132,20 @@ class Panel {
            "\" d=\"" + path + "\"/>\n";
   }
 
-  std::string legend(std::size_t index) const {
-    const double x = kLeft + kLegendInset,
-                 y = y_.to + kLegendInset + kLegendLine * static_cast<double>(index);
-    return formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"22\" height=\"3\"", x, y - 5) + " fill=\"" +
-           colour(index) + "\"/>\n" + textAt(x + 30, y, kHalo, plot_.curves[index].name);
+  /// The names of the curves in a row under the title.
+  std::string legend() const {
+    std::string text;
+    double x = kLeft;
+    for (std::size_t c = 0; c < plot_.curves.size(); ++c) {
+      const std::string& name = plot_.curves[c].name;
+      text += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"22\" height=\"3\"", x, top_ + 42) + " fill=\"" +
+              colour(c) + "\"/>\n" + textAt(x + 28, top_ + 47, "", name);
+      x += kKey + kLetter * static_cast<double>(name.size());
+    }
+    return text;
   }
 
   static std::string colour(std::size_t index) { return kColours[index % std::size(kColours)]; }
-
-  /// White around the letters, so that curves behind them do no harm.
-  static constexpr char kHalo[] = "paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"4\"";
 
   const Plot& plot_;
   double top_;

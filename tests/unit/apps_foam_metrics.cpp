@@ -48,11 +48,12 @@ TEST(LayersAlong, CountsTheCellsOfAColumnAndNoLoneBubble) {
   EXPECT_EQ(layersAlong(column, topologyOf(column), 5, 0), 0);
 }
 
-TEST(InsideSolids, CountsCentresDeeperThanATenthOfTheRadius) {
+TEST(InsideSolids, CountsCentresDeeperThanHalfTheRadius) {
   const foam::BubbleStore bubbles = storeOf({{0, 0, 0}, {3, 0, 0}, {6, 0, 0}}, foam::BubbleClass::liquid);
   Eigen::VectorXd toSolids(3);
-  toSolids << 0.5, -0.05, -0.2;
+  toSolids << 0.5, -0.4, -0.6;
   EXPECT_EQ(insideSolids(bubbles, toSolids), 1u);
+  EXPECT_DOUBLE_EQ(deepestInSolids(bubbles, toSolids), 0.6);
 }
 
 TEST(BubbleBooks, AddUpTheTimeOutOfTheWater) {
