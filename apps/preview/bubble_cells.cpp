@@ -105,12 +105,16 @@ bool BubbleCells::cut(int bubble, const Vec3& origin, const Vec3& direction, Str
   for (int f = firstFace(bubble); f < endFace(bubble); ++f) {
     const Plane& plane = plane_[f];
     const float speed = plane.normal.dot(direction), distance = plane.height - plane.normal.dot(o);
+    // Most planes lie beyond what is found already: they are passed over without a division.
     if (speed > 0) {
-      if (const float t = distance / speed; t < stretch.out) stretch.out = t, stretch.faceOut = f;
+      if (distance >= stretch.out * speed) continue;
+      stretch.out = distance / speed, stretch.faceOut = f;
     } else if (speed < 0) {
-      if (const float t = distance / speed; t > stretch.in) stretch.in = t, stretch.faceIn = f;
-    } else if (distance < 0) {
-      return false;
+      if (distance >= stretch.in * speed) continue;
+      stretch.in = distance / speed, stretch.faceIn = f;
+    } else {
+      if (distance < 0) return false;
+      continue;
     }
     if (stretch.in >= stretch.out) return false;
   }
@@ -143,9 +147,10 @@ Rounding BubbleCells::roundedAt(int bubble, int face, const Vec3& p, float width
     if (rim - from < nearest && from > 0) nearest = rim - from, towards = across / from;
   }
   for (int f = firstFace(bubble); f < endFace(bubble); ++f) {
-    if (f == face) continue;
+    const float distance = plane_[f].height - plane_[f].normal.dot(offset);
+    if (f == face || distance >= nearest) continue;  // along the face it is farther still
     const Vec3 inFace = plane_[f].normal - plane_[f].normal.dot(flat) * flat;
-    const float lean = inFace.norm(), distance = plane_[f].height - plane_[f].normal.dot(offset);
+    const float lean = inFace.norm();
     if (distance >= nearest * lean || lean <= kParallel) continue;
     nearest = distance / lean;
     towards = face == kSkin ? plane_[f].normal : Vec3(inFace / lean);

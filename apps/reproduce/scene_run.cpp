@@ -59,7 +59,8 @@ coupling::Scene sceneOf(const StudyContext& context, const std::string& name,
                         const coupling::Overrides& overrides) {
   coupling::Scene scene = coupling::readScene(context.scenes + "/" + name + ".toml", overrides);
   if (context.frames > 0) scene.time.frames = context.frames;
-  scene.output.preview = scene.output.bubblesVdb = scene.output.dropsVdb = scene.output.dropsPly = false;
+  coupling::OutputSpec& output = scene.output;  // the figures need the PLY of bubbles alone
+  output.preview = output.liquid = output.bubblesVdb = output.dropsVdb = output.dropsPly = false;
   return scene;
 }
 

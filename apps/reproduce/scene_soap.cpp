@@ -30,13 +30,14 @@ std::vector<double> layerCounts(const SceneRun& run) {
   return layers;
 }
 
-/// Flags the bubbles out of the water whose films are dry.
+/// Flags the bubbles out of the water whose films are dry and whose volume is held.
 std::vector<std::uint8_t> dryOnes(const SceneRun& run) {
   const foam::FoamParams& foam = run.scene.foam;
   const double limit = foam.wetness + kDryShare * (foam.wetnessAloft - foam.wetness);
   std::vector<std::uint8_t> dry(run.bubbles().size());
   for (std::size_t i = 0; i < dry.size(); ++i)
-    dry[i] = run.bubbles().type[i] == foam::BubbleClass::air && run.bubbles().wetness[i] <= limit;
+    dry[i] = run.bubbles().type[i] == foam::BubbleClass::air && run.bubbles().wetness[i] <= limit &&
+             !run.bubbles().hidden[i] && !run.bubbles().clamped[i];
   return dry;
 }
 
