@@ -86,7 +86,7 @@ struct Simulation::Internals {
 
   StepReport attempt(double dt);
   void stepLiquid(double dt, StepReport& report);
-  void entrain(double dt, StepReport& report);
+  void entrain(StepReport& report);
   void reportFirstBubbles(StepReport& report) const;
   void supplyBubbles(double dt, StepReport& report);
   void stepFoam(double dt, StepReport& report);
@@ -123,7 +123,7 @@ void Simulation::Internals::stepLiquid(double dt, StepReport& report) {
   report.secondsLiquid = watch.seconds();
 }
 
-void Simulation::Internals::entrain(double dt, StepReport& report) {
+void Simulation::Internals::entrain(StepReport& report) {
   const Stopwatch watch;
   const auto escaped = liquid->takeEscaped();
   const auto pockets = liquid->takeCollapsedPockets();
@@ -220,7 +220,7 @@ StepReport Simulation::Internals::attempt(double dt) {
   report.time = time + dt;
   if (steps == 0) reportFirstBubbles(report);
   stepLiquid(dt, report);
-  entrain(dt, report);
+  entrain(report);
   supplyBubbles(dt, report);
   stepFoam(dt, report);
   removeLeavers(report);

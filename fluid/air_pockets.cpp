@@ -65,17 +65,6 @@ void fill(const GridSpec& grid, const SolidBoundary& boundary, const MacVelocity
   pocket.pocket.gas = std::max(0.0, liquidAround(grid, boundary, cells, phi) - before);
 }
 
-/// Calls body(component, cell) for every labelled cell of the grid, in order.
-template <typename Body>
-void forEachMember(const GridSpec& grid, const DenseField<std::int32_t>& label, const Body& body) {
-  for (int i = 0; i < grid.cells.x(); ++i)
-    for (int j = 0; j < grid.cells.y(); ++j) {
-      const std::int32_t* row = &label(i, j, 0);
-      for (int k = 0; k < grid.cells.z(); ++k)
-        if (row[k] >= 0) body(row[k], i, j, k);
-    }
-}
-
 /// Air of a liquid cell that the surface cuts belongs to its neighbour highest above the surface.
 bool ownsAirOf(const DenseField<float>& phi, const Eigen::Vector3i& owner, const Eigen::Vector3i& liquid) {
   Eigen::Vector3i best = liquid;
@@ -95,7 +84,8 @@ void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const 
       grid.cells, [&](int i, int j, int k) { return phi(i, j, k) >= 0 && boundary.hasOpenFace(i, j, k); },
       [&](int axis, int i, int j, int k) { return boundary.open[axis](i, j, k) > 0; }, label_);
   count_.assign(components, 0);
-  forEachMember(grid, label_, [&](std::int32_t n, int, int, int) { ++count_[n]; });
+  connected_.forEachRun(grid.cells,
+                        [&](std::int32_t n, int, int, int begin, int end) { count_[n] += end - begin; });
   findOutside(grid, boundary, vents);
   collect(grid);
   for (AirPocket& pocket : pockets_) measure(grid, phi, boundary, pocket);
@@ -110,7 +100,8 @@ void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3, d = (a + 2) % 3;
     Eigen::Vector3i c, face;
-    for (const bool high : {false, true})
+    for (const bool high : {false, true}) {
+      if (boundary.walls.closed[2 * a + high]) continue;
       for (c[b] = 0; c[b] < grid.cells[b]; ++c[b])
         for (c[d] = 0; c[d] < grid.cells[d]; ++c[d]) {
           c[a] = high ? grid.cells[a] - 1 : 0;
@@ -119,6 +110,7 @@ void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary
           outside_[label_(c)] = 1;
           sealed = false;
         }
+    }
   }
   if (sealed && !count_.empty())
     outside_[std::max_element(count_.begin(), count_.end()) - count_.begin()] = 1;
@@ -133,9 +125,10 @@ void AirPockets::collect(const GridSpec& grid) {
     number[n] = static_cast<std::int32_t>(pockets_.size());
     pockets_.emplace_back().cells.reserve(count_[n]);
   }
-  forEachMember(grid, label_, [&](std::int32_t n, int i, int j, int k) {
-    label_(i, j, k) = number[n];
-    if (number[n] >= 0) pockets_[number[n]].cells.emplace_back(i, j, k);
+  connected_.forEachRun(grid.cells, [&](std::int32_t n, int i, int j, int begin, int end) {
+    std::fill(&label_(i, j, begin), &label_(i, j, begin) + (end - begin), number[n]);
+    if (number[n] < 0) return;
+    for (int k = begin; k < end; ++k) pockets_[number[n]].cells.emplace_back(i, j, k);
   });
 }
 

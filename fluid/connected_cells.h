@@ -33,6 +33,16 @@ class ConnectedCells {
     return write(cells, label);
   }
 
+  /// Calls body(component, i, j, begin, end) for the runs of cells k = begin ... end - 1 of the last `label`,
+  /// in the order of the cells.
+  template <typename Body>
+  void forEachRun(const Eigen::Vector3i& cells, const Body& body) const {
+    for (int i = 0, row = 0; i < cells.x(); ++i)
+      for (int j = 0; j < cells.y(); ++j, ++row)
+        for (std::int32_t run = rowStart_[row]; run < rowStart_[row + 1]; ++run)
+          body(number_[run], i, j, runs_[run].begin, runs_[run].end);
+  }
+
  private:
   struct Run {
     int begin, end;       // k range

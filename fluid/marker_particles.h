@@ -28,7 +28,7 @@ void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double
 class MarkerSorter {
  public:
   explicit MarkerSorter(const GridSpec& grid) : cells_(grid.cells) {}
-  /// Drops removed markers; the order of the others stays.
+  /// Drops removed markers; the last ones take their places.
   void compact(MarkerSet& markers);
   /// Drops removed markers and sorts the others by cell (x slowest, z fastest), stable inside a cell.
   void sort(MarkerSet& markers);
@@ -42,6 +42,7 @@ class MarkerSorter {
 
   Eigen::Vector3i cells_;
   std::vector<std::int32_t> cellStart_, cellOf_, order_, next_;
+  std::vector<std::vector<std::size_t>> gone_;  // of each chunk
   std::vector<float> column_;
   std::vector<std::uint8_t> flags_;
 };

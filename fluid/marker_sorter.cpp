@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "fluid/marker_chunks.h"
 #include "fluid/marker_particles.h"
@@ -15,23 +14,18 @@ std::int32_t MarkerSorter::cellNumber(float x, float y, float z) const {
 
 void MarkerSorter::compact(MarkerSet& markers) {
   const std::size_t count = markers.size();
-  const std::size_t chunks = (count + kMarkerChunk - 1) / kMarkerChunk;
-  next_.assign(chunks + 1, 0);  // markers kept in each chunk, then the place of its first one
-  const float* x = markers.x.data();
+  gone_.resize((count + kMarkerChunk - 1) / kMarkerChunk);
   forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
-    std::int32_t kept = 0;
-    for (std::size_t n = first; n < last; ++n) kept += std::isnan(x[n]) ? 0 : 1;
-    next_[first / kMarkerChunk] = kept;
-  });
-  std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), std::int32_t{0});
-  if (static_cast<std::size_t>(next_.back()) == count) return;
-  order_.resize(next_.back());
-  forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
-    std::int32_t* place = order_.data() + next_[first / kMarkerChunk];
+    std::vector<std::size_t>& gone = gone_[first / kMarkerChunk];
+    gone.clear();
     for (std::size_t n = first; n < last; ++n)
-      if (!std::isnan(x[n])) *place++ = static_cast<std::int32_t>(n);
+      if (std::isnan(markers.x[n])) gone.push_back(n);
   });
-  permute(markers);
+  std::size_t end = count;  // from the last hole on, so that the marker before `end` is none
+  for (auto chunk = gone_.rbegin(); chunk != gone_.rend(); ++chunk)
+    for (auto hole = chunk->rbegin(); hole != chunk->rend(); ++hole)
+      if (--end != *hole) markers.forEachColumn([&](auto& column) { column[*hole] = column[end]; });
+  if (end < count) markers.resize(end);
 }
 
 void MarkerSorter::sort(MarkerSet& markers) {
@@ -62,8 +56,7 @@ void MarkerSorter::permute(MarkerSet& markers) {
     });
     column.swap(scratch);
   };
-  for (std::vector<float>* column :
-       {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas})
+  for (std::vector<float>* column : {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas})
     reorder(*column, column_);
   reorder(markers.escaped, flags_);
 }

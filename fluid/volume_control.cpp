@@ -187,11 +187,14 @@ void VolumeControl::findGroups(const LiquidBodies& bodies) {
 
 void VolumeControl::bookGas(const LiquidBodies& bodies, const ImmersedGas& gas) {
   gas_.assign(bodies.bodies.size(), 0);
-  for (std::size_t b = 0; b < gas.volume.size(); ++b) {
-    std::int32_t body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], 0);
+  gasBody_.resize(gas.volume.size());
+  tbb::parallel_for(std::size_t{0}, gas.volume.size(), [&](std::size_t b) {
+    std::int32_t& body = gasBody_[b];
+    body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], 0);
     if (body < 0) body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], kNearby);
-    if (body >= 0) gas_[body] += gas.volume[b];
-  }
+  });
+  for (std::size_t b = 0; b < gas.volume.size(); ++b)
+    if (gasBody_[b] >= 0) gas_[gasBody_[b]] += gas.volume[b];
 }
 
 void VolumeControl::update(const LiquidBodies& bodies, const MacVelocity& velocity, double dt,

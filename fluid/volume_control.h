@@ -81,7 +81,8 @@ class VolumeControl {
   VolumeLedger ledger_;
   DenseField<std::int32_t> lastLabel_;
   std::vector<LiquidBody> lastBodies_;
-  std::vector<double> gas_;  // immersed gas of each body [m^3]
+  std::vector<double> gas_;            // immersed gas of each body [m^3]
+  std::vector<std::int32_t> gasBody_;  // that of each bubble
 
   std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> links_;  // (new, old) per i-slab
   std::vector<std::int32_t> group_;  // union-find parents: new bodies, then old ones
