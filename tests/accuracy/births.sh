@@ -33,5 +33,5 @@ echo "| variant | births/s | ratio | r 10 % [mm] | r 50 % [mm] | r 90 % [mm] |"
 echo "|---|---|---|---|---|---|"
 variant standard
 variant resolution_48 --set domain.resolution=48
-variant step_5ms --set time.max_step=0.005
+variant step_5ms --set time.max_step=0.005 --set time.min_step=0.005
 variant markers_64 --set liquid.markers_per_cell=64

@@ -62,6 +62,7 @@ TEST(SceneLint, LargeBubblesThinJetsAndFastJetsAreFound) {
   EXPECT_TRUE(mentions(lintScene(scene), "inflow 'jet'", "1.2 cells"));
   scene = pouring();
   scene.inflows[0].speed = 20;
+  scene.time.minDt = 0.005;
   EXPECT_TRUE(mentions(lintScene(scene), "inflow 'jet'", "40 cells"));  // 20 m/s x 5 ms / 2.5 mm
 }
 
