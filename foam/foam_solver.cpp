@@ -21,14 +21,23 @@
 namespace spume::foam {
 namespace {
 
-/// Notes the wall time of each stage as it ends.
+/// Most times the volumes are corrected at the end of a step of `newton`: errors of 10 % are 1e-8 after
+/// three.
+constexpr int kVolumePasses = 5;
+
+/// Notes the wall time of each stage as it ends; a name that comes again adds to its first.
 class StageClock {
  public:
   explicit StageClock(std::vector<FoamStageTime>& stages) : stages_(stages), last_(Clock::now()) {}
   void end(const char* stage) {
     const auto now = Clock::now();
-    stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
-    last_ = now;
+    const double seconds = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    const auto known = std::find_if(stages_.begin(), stages_.end(),
+                                    [&](const FoamStageTime& noted) { return noted.stage == stage; });
+    if (known != stages_.end())
+      known->seconds += seconds;
+    else
+      stages_.push_back({stage, seconds});
   }
 
  private:
@@ -75,6 +84,7 @@ struct FoamSolver::Internals {
   BubbleStore next;  ///< the bubbles while they change: the caller's stay whole until the end
 
   void measure(const LiquidSampler& liquid);
+  void holdVolumes(const LiquidSampler& liquid);
   void relabelAtEnd(const LiquidSampler& liquid);
   void endLivesAndReport(double dt, FoamStepReport& report);
   void summarise(FoamStepReport& report) const;
@@ -89,6 +99,17 @@ void FoamSolver::Internals::measure(const LiquidSampler& liquid) {
   cells.compute(next, walls, topology);
   topologyId = next.id;
   neighbours.build(next.size(), topology.overlaps);
+}
+
+/// Corrects the radii where the bubbles have come to, until every cell holds its gas.
+void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
+  around.sample(liquid, next.positions());
+  for (int pass = 0;; ++pass) {
+    measure(liquid);
+    noteVolumes(topology, next);
+    if (pass == kVolumePasses || worstVolumeError(next) <= kVolumeTolerance) return;
+    projectVolumes(params, topology, next);
+  }
 }
 
 void FoamSolver::Internals::relabelAtEnd(const LiquidSampler& liquid) {
@@ -176,6 +197,8 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("solve");
   s.integrator.advance(dt, s.next);
   requireFinite(s.next);
+  if (holdsVolumes(s.params)) s.holdVolumes(liquid);
+  clock.end("volume");
   s.relabelAtEnd(liquid);
   s.reportClassChanges(bubbles, report);
   report.kineticEnergy = s.integrator.kineticEnergy();

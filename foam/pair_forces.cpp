@@ -7,7 +7,9 @@
 #include "foam/counter_random.h"
 #include "foam/forces/contact_damping.h"
 #include "foam/forces/strong_spring.h"
+#include "foam/forces/volume_response.h"
 #include "foam/parallel.h"
+#include "foam/volume_correction.h"
 
 namespace spume::foam {
 namespace {
@@ -39,6 +41,12 @@ PairForce pairForce(const FoamParams& params, const BubbleStore& bubbles, const 
   PairForce force;
   force.direction = pairDirection(params, bubbles, pair);
   force.tension = spring.tension, force.along = spring.along, force.across = spring.across;
+  if (pair.film >= 0 && holdsVolumes(params)) {
+    const auto squeezed = [&](std::int32_t b) {
+      return SqueezedBubble{bubbles.radius[b], topology.filmArea[b], topology.freeArea[b]};
+    };
+    force.along *= 1 + volumeResponse(squeezed(pair.i), squeezed(pair.j), wetness);
+  }
   if (pair.film >= 0)
     force.damping = contactDamping(params.contactDamping, stiffness, mass[pair.i], mass[pair.j]);
   return force;

@@ -9,12 +9,29 @@ namespace spume::foam {
 /// Radius of the ball that holds `gas` alone [m].
 double gasRadius(double gas);
 
-/// Moves every cell's volume towards its gas by the share 1 - exp(-gamma dt) of what is missing, r <= limit
-/// r0. relax: each by itself, r *= (V0 / V)^(share / 3). newton: all together by the derivatives of the
-/// volumes, so that what one cell gains its neighbours do not lose; the whole of it once the foam is at rest.
-/// Copies volumes and hidden flags into the store and flags the clamped. A hidden bubble has no volume to
-/// correct: its ball returns to r0 at the same rate. Deviation: [Busaryev 2012, 5.2] multiplies by 1 + gamma
-/// ((V0/V)^(1/3) - 1) dt, which depends on dt and overshoots.
+/// Moves volumes towards the gas at the start of a step, by the share 1 - exp(-gamma dt) of what is missing,
+/// r <= limit r0. relax: each cell by itself, r *= (V0 / V)^(share / 3). newton: only balls that are hidden,
+/// see projectVolumes. Copies volumes and hidden flags into the store and flags the clamped. A hidden bubble
+/// has no volume to correct: its ball returns to r0 at the same rate. Deviation: [Busaryev 2012, 5.2]
+/// multiplies by 1 + gamma ((V0/V)^(1/3) - 1) dt, which depends on dt and overshoots.
 void correctVolumes(const FoamParams& params, const FoamTopology& topology, double dt, BubbleStore& bubbles);
+
+/// Whether the volumes are held in full, at the end of every step: newton, unless its rate is 0.
+bool holdsVolumes(const FoamParams& params);
+
+/// Error left when volumes are held, |V - V0| / V0: far below any that shows.
+inline constexpr double kVolumeTolerance = 1e-8;
+
+/// Copies volumes and hidden flags into the store.
+void noteVolumes(const FoamTopology& topology, BubbleStore& bubbles);
+
+/// Largest |V - V0| / V0 of the volumes noted, over bubbles neither hidden nor clamped.
+double worstVolumeError(const BubbleStore& bubbles);
+
+/// One Newton step of all radii together, by the derivatives of the volumes: what one cell gains its
+/// neighbours do not lose. r <= limit r0; flags the clamped. Converges in a few steps, each after measuring
+/// anew. Deviation: [Busaryev 2012, 5.2] lets the volumes of moving bubbles lag; held in full they make a
+/// foam stiffer, which forces/volume_response brings into the implicit step.
+void projectVolumes(const FoamParams& params, const FoamTopology& topology, BubbleStore& bubbles);
 
 }  // namespace spume::foam
