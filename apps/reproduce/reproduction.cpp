@@ -3,7 +3,7 @@
 namespace spume::apps {
 
 const std::vector<Reproduction>& reproductions() {
-  static const std::vector<Reproduction> kAll{liquidReproduction(), sceneReproduction()};
+  static const std::vector<Reproduction> kAll{liquidReproduction(), foamReproduction(), sceneReproduction()};
   return kAll;
 }
 

@@ -43,6 +43,7 @@ const std::vector<Reproduction>& reproductions();
 
 // Each in a file of its own.
 Reproduction liquidReproduction();
+Reproduction foamReproduction();
 Reproduction sceneReproduction();
 
 }  // namespace spume::apps

@@ -1,0 +1,12 @@
+#include "apps/reproduce/foam_studies.h"
+
+namespace spume::apps {
+
+Reproduction foamReproduction() {
+  Reproduction table{"foam", "The foam beside published and exact figures", {}};
+  for (const std::vector<Study>& studies : {loneBubbleStudies(), clusterStudies(), crowdStudies()})
+    table.studies.insert(table.studies.end(), studies.begin(), studies.end());
+  return table;
+}
+
+}  // namespace spume::apps
