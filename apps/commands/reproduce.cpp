@@ -186,7 +186,7 @@ void addReproduce(CLI::App& program, Action& action) {
       "reproduce", "Runs validation cases and sets our figures beside the published or exact ones.");
   const auto options = std::make_shared<ReproduceOptions>();
   verb->add_option("tables", options->targets,
-                   "liquid, scenes, one of cluster, soap, pouring, coke, coke_100k, or all")
+                   "liquid, foam, scenes, one of cluster, soap, pouring, coke, coke_100k, or all")
       ->required()
       ->type_name("TABLE");
   verb->add_option("--cases", options->cases, "only these, e.g. L1,L3; the other rows of the table stay")
