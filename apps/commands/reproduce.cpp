@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -10,11 +9,10 @@
 #include <memory>
 
 #include "apps/exit_code.h"
-#include "apps/reproduce/reproduction.h"
+#include "apps/reproduce/selection.h"
 #include "apps/run_session.h"
 #include "apps/stop_request.h"
 #include "coupling/atomic_file.h"
-#include "coupling/nearest_key.h"
 
 namespace spume::apps {
 namespace {
@@ -26,63 +24,6 @@ struct ReproduceOptions {
   int frames = 0;
   bool list = false, restart = false;
 };
-
-/// A table and the cases of it that were named one by one; none: all that are not too dear.
-struct Selection {
-  const Reproduction* table;
-  std::vector<std::string> cases;
-};
-
-template <typename Item, typename Value>
-bool contains(const std::vector<Item>& items, const Value& value) {
-  return std::find(items.begin(), items.end(), value) != items.end();
-}
-
-std::vector<std::string> keysOf(const Reproduction& table) {
-  std::vector<std::string> keys;
-  for (const Study& study : table.studies) keys.push_back(study.key);
-  return keys;
-}
-
-bool isWanted(const Study& study, const Selection& selection, const ReproduceOptions& options) {
-  return selection.cases.empty() ? study.cost <= options.maxCost : contains(selection.cases, study.key);
-}
-
-/// Throws SceneError, naming the nearest, if a word is none of those known.
-void requireKnown(const std::vector<std::string>& words, const std::vector<std::string>& known,
-                  const std::string& what) {
-  for (const std::string& word : words) {
-    if (contains(known, word)) continue;
-    std::string all;
-    for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-    throw coupling::SceneError("unknown " + what + " " + word + ": did you mean " +
-                               coupling::nearestOf(word, known) + "? These are: " + all);
-  }
-}
-
-/// What was asked for: tables by their name, the paper's scenes also one by one. Throws SceneError for a name
-/// or a case that does not exist.
-std::vector<Selection> chosen(const ReproduceOptions& options) {
-  std::vector<Selection> selections;
-  std::vector<std::string> names, keys;
-  const bool all = contains(options.targets, "all");
-  for (const Reproduction& table : reproductions()) {
-    names.push_back(table.name);
-    const std::vector<std::string> own = keysOf(table);
-    Selection selection{&table, options.cases};
-    const bool whole = all || contains(options.targets, table.name);
-    for (const std::string& key : own)
-      if (!whole && contains(options.targets, key)) selection.cases.push_back(key);
-    names.insert(names.end(), own.begin(), own.end());
-    if (!whole && selection.cases.empty()) continue;
-    keys.insert(keys.end(), own.begin(), own.end());
-    selections.push_back(selection);
-  }
-  names.push_back("all");
-  requireKnown(options.targets, names, "table");
-  requireKnown(options.cases, keys, "case");
-  return selections;
-}
 
 /// Runs a scene as `spume run` does. Throws Stopped if it was interrupted.
 void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart) {
@@ -139,7 +80,7 @@ void make(const Selection& selection, const ReproduceOptions& options) {
   ResultTable table = readTable(reproduction, options.output);
   const StudyContext context = contextOf(reproduction, options);
   for (const Study& study : reproduction.studies) {
-    if (!isWanted(study, selection, options)) continue;
+    if (!selection.wants(study, options.maxCost)) continue;
     const std::vector<ResultRow> rows = perform(study, context);
     for (const ResultRow& row : rows) std::cout << summaryOf(row) << std::endl;
     table.set(study.key, rows);
@@ -167,7 +108,7 @@ void list(const Reproduction& table) {
 }
 
 int reproduce(const ReproduceOptions& options) {
-  const std::vector<Selection> selections = chosen(options);
+  const std::vector<Selection> selections = select(reproductions(), options.targets, options.cases);
   try {
     for (const Selection& selection : selections)
       options.list ? list(*selection.table) : make(selection, options);
