@@ -1,5 +1,7 @@
 #include "coupling/liquid_cache.h"
 
+#include <algorithm>
+
 #include "coupling/vdb_file.h"
 #include "fluid/parallel.h"
 #include "fluid/vdb_grids.h"
@@ -17,13 +19,28 @@ fluid::DenseField<float> boxDistance(const fluid::GridSpec& grid) {
   return psi;
 }
 
+/// The liquid closed half a cell inside solids, as the grid closes it at the walls of the domain. phi is
+/// continued into solids from both sides: in a thin wall it would jump from deep liquid to far air without a
+/// voxel of the band in between, which no level set may. The half cell keeps a drawn liquid in touch with its
+/// glass.
+fluid::DenseField<float> closedInSolids(const fluid::LiquidState& liquid,
+                                        const fluid::DenseField<float>& psi) {
+  if (psi.size() != liquid.grid.cells) return liquid.phi;  // without solids
+  const float reach = static_cast<float>(0.5 * liquid.grid.dx);
+  fluid::DenseField<float> phi(liquid.grid.cells);
+  fluid::forEachCell(liquid.grid.cells, [&](int i, int j, int k) {
+    phi(i, j, k) = std::max(liquid.phi(i, j, k), -psi(i, j, k) - reach);
+  });
+  return phi;
+}
+
 }  // namespace
 
 void writeLiquidFrame(const std::string& path, const fluid::LiquidState& liquid,
                       const fluid::SolidBoundary& solids, const FrameStamp& stamp,
                       const LiquidCacheOptions& options) {
   openvdb::initialize();
-  openvdb::GridPtrVec grids{fluid::surfaceGrid(liquid.grid, liquid.phi),
+  openvdb::GridPtrVec grids{fluid::surfaceGrid(liquid.grid, closedInSolids(liquid, solids.psi)),
                             fluid::velocityGrid(liquid, options.staggeredVelocity)};
   if (options.solid) grids.push_back(fluid::solidGrid(liquid.grid, solids.psi));
   for (const auto& grid : grids) stampGrid(*grid, stamp);

@@ -27,9 +27,10 @@ ResultRow rowOf(const SceneRun& run, const std::string& quantity);
 /// The same with the paper's figure beside it.
 ResultRow rowOf(const SceneRun& run, const std::string& quantity, const std::string& paper);
 
-/// Most of a column, its mean over the full frames, and the sum of all.
+/// Most of a column, its mean and its least over the full frames, and the sum of all.
 double mostOf(const std::vector<double>& column);
 double meanWhenFull(const SceneRun& run, const std::vector<double>& column);
+double leastWhenFull(const SceneRun& run, const std::vector<double>& column);
 double totalOf(const std::vector<double>& column);
 
 /// Bubbles, contacts, faces, seconds and steps a frame, errors of volume, bubbles lost and inside solids.

@@ -28,9 +28,10 @@ std::size_t append(CsvReader& reader, const std::vector<Wanted>& wanted) {
 
 /// Adds up, or takes the last of, the steps of each frame.
 void foldSteps(const std::string& folder, FrameCurves& curves) {
-  std::vector<double> foamSteps, hidden, clamped, overlaps, entrain, supply, foam, geometry;
+  std::vector<double> time, foamSteps, hidden, clamped, overlaps, entrain, supply, foam, geometry;
   CsvReader reader(folder + "/steps.csv");
-  append(reader, {{"foam_substeps", foamSteps},
+  append(reader, {{"time", time},
+                  {"foam_substeps", foamSteps},
                   {"hidden", hidden},
                   {"clamped", clamped},
                   {"overlaps", overlaps},
@@ -39,10 +40,10 @@ void foldSteps(const std::string& folder, FrameCurves& curves) {
                   {"seconds_foam", foam},
                   {"seconds_foam_geometry", geometry}});
   std::size_t step = 0;
-  for (const double steps : curves.steps) {
+  constexpr double kRoundOff = 1e-9;  // relative: the last step of a frame may miss its end by so much
+  for (const double end : curves.time) {
     double split = 0, seconds = 0, diagram = 0;
-    const std::size_t end = std::min(foam.size(), step + static_cast<std::size_t>(steps));
-    for (; step < end; ++step) {
+    for (; step < time.size() && time[step] <= end * (1 + kRoundOff); ++step) {
       split += foamSteps[step];
       seconds += entrain[step] + supply[step] + foam[step];
       diagram += geometry[step];

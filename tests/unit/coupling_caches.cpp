@@ -8,6 +8,7 @@
 #include "coupling/bubble_cache.h"
 #include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
+#include "fluid/parallel.h"
 #include "tests/support/temporary_path.h"
 
 namespace spume::coupling {
@@ -150,6 +151,29 @@ TEST(LiquidCache, FrameReadsBack) {
   EXPECT_EQ(frame.liquid.phi(8, 5, 5), liquid.phi(8, 5, 5));
   EXPECT_EQ(frame.liquid.velocity[1](8, 5, 5), 0.25f);
   std::remove(path.c_str());
+}
+
+TEST(LiquidCache, LiquidBehindAThinWallStaysThere) {
+  fluid::LiquidState liquid = pool();
+  liquid.grid.cells = {32, 32, 16};
+  liquid.phi = fluid::DenseField<float>(liquid.grid.cells);
+  liquid.velocity = fluid::MacVelocity(liquid.grid.cells, 0.0f);
+  fluid::SolidBoundary solids;
+  solids.psi = fluid::DenseField<float>(liquid.grid.cells);
+  constexpr double kMiddle = 12, kHalf = 1;  // of a wall two cells thick, in the middle of an 8-cell leaf
+  fluid::forEachCell(liquid.grid.cells, [&](int i, int j, int k) {
+    solids.psi(i, j, k) = static_cast<float>((std::abs(i + 0.5 - kMiddle) - kHalf) * kVoxel);
+    liquid.phi(i, j, k) = static_cast<float>((i + 0.5 < kMiddle ? -10 : 10) * kVoxel);  // as it is continued
+  });
+  const std::string path = fileIn("thin.vdb");
+  writeLiquidFrame(path, liquid, solids, kStamp, {});
+  const fluid::DenseField<float> phi = readLiquidFrame(path).liquid.phi;
+  std::remove(path.c_str());
+  constexpr int kInner = 4;  // away from the walls of the domain, where the surface is closed, too
+  for (int i = kInner; i < 32 - kInner; ++i)
+    if (std::abs(i + 0.5 - kMiddle) > kHalf) {
+      EXPECT_EQ(phi(i, 16, 8) < 0, i + 0.5 < kMiddle) << i;
+    }
 }
 
 TEST(LiquidCache, WithoutSolidPsiIsTheDistanceToTheBox) {
