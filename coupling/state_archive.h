@@ -152,11 +152,11 @@ void archive(Archive& a, fluid::Drop& drop) {
 
 template <typename Archive>
 void archive(Archive& a, fluid::LiquidState& liquid) {
-  auto& [grid, time, subSteps, phi, velocity, pressureGradient, positive, negative, volume, drops,
+  auto& [grid, time, subSteps, phi, velocity, lead, pressureGradient, positive, negative, volume, drops,
          dropsEver] = liquid;
   auto& [cells, dx, origin] = grid;
   auto& [target, unassigned, pocketGas] = volume;
-  archiveAll(a, cells, dx, origin, time, subSteps, phi, velocity, pressureGradient, positive, negative,
+  archiveAll(a, cells, dx, origin, time, subSteps, phi, velocity, lead, pressureGradient, positive, negative,
              target, unassigned, pocketGas, drops, dropsEver);
 }
 

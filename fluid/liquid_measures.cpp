@@ -44,6 +44,26 @@ double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity) {
   return reduceSlabs(n.x(), 0.0, slab, maxOrNan);
 }
 
+MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double density,
+                            const Eigen::Vector3d& gravity) {
+  MacVelocity velocity = state.velocity;
+  if (state.lead == 0) return velocity;
+  for (int a = 0; a < 3; ++a) {
+    const double fall = state.lead * gravity[a], toSpeed = state.lead / density;
+    const auto back = state.phi.stride(a);
+    const Eigen::Vector3i& size = velocity[a].size();
+    forEachRow(size, [&](int i, int j) {
+      const float *phi = &state.phi(i, j, 0), *open = &boundary.open[a](i, j, 0);
+      const float* gradient = &state.pressureGradient[a](i, j, 0);
+      float* u = &velocity[a](i, j, 0);
+      for (int k = 0; k < size.z(); ++k)
+        if ((phi[k] < 0 || phi[k - back] < 0) && open[k] > 0)
+          u[k] = static_cast<float>(u[k] - (fall - toSpeed * gradient[k]));
+    });
+  }
+  return velocity;
+}
+
 LiquidEnergy liquidEnergy(const GridSpec& grid, const DenseField<float>& fraction,
                           const MacVelocity& velocity, double density, const Eigen::Vector3d& gravity) {
   const Eigen::Vector3i& n = grid.cells;
@@ -62,6 +82,16 @@ LiquidEnergy liquidEnergy(const GridSpec& grid, const DenseField<float>& fractio
   const Eigen::Vector2d sum = reduceSlabs(n.x(), Eigen::Vector2d(0, 0), slab, join);
   const double mass = density * grid.cellVolume();
   return {mass * sum[0], mass * sum[1]};
+}
+
+LiquidEnergy energyOf(const std::vector<Drop>& drops, double density, const Eigen::Vector3d& gravity) {
+  LiquidEnergy sum;
+  for (const Drop& drop : drops) {
+    const double mass = density * drop.volume;
+    sum.kinetic += 0.5 * mass * drop.velocity.squaredNorm();
+    sum.potential -= mass * gravity.dot(drop.position);
+  }
+  return sum;
 }
 
 }  // namespace spume::fluid

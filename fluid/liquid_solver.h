@@ -53,7 +53,7 @@ struct LiquidStepReport {
   double dropVolume = 0;    ///< in them
   double launched = 0;      ///< became drops in this step
   double landed = 0;        ///< came back from drops in this step
-  double kineticEnergy = 0, potentialEnergy = 0;  ///< [J]
+  double kineticEnergy = 0, potentialEnergy = 0;  ///< of grid liquid and drops [J]
   std::size_t positiveMarkers = 0, negativeMarkers = 0;
   std::vector<StageTime> stages;
 };

@@ -28,6 +28,10 @@ constexpr int kSubStepsPerDropVolume = 4;
 /// Steps that fill an interval up to round-off must not be given one more.
 constexpr double kRoundOff = 1e-9;
 
+/// Least time that the velocity advances in a sub-step, of the sub-step's: where the steps shorten suddenly
+/// its lead over the surface is taken back in several.
+constexpr double kLeastAdvance = 0.5;
+
 }  // namespace
 
 LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
@@ -39,6 +43,7 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
       levelSetAdvection(setup.grid),
       reinitializer(setup.grid),
       velocityAdvector(setup.grid),
+      acceleration(setup.grid),
       extrapolator(setup.grid),
       sorter(setup.grid),
       seeder(setup.grid),
@@ -186,7 +191,7 @@ void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& rep
 }
 
 void LiquidStages::moveVelocity(double dt) {
-  velocityAdvector.advance(params.velocityAdvection, state.phi, dt, state.velocity);
+  acceleration.advect(params.velocityAdvection, state.phi, dt, velocityAdvector, state.velocity);
   depositMomentum(state.grid, landed, state.velocity);
   constrainToSolids(solids, state.velocity);
   inflows.setVelocity(state.velocity);
@@ -194,14 +199,33 @@ void LiquidStages::moveVelocity(double dt) {
 
 void LiquidStages::applyViscosity(double dt) { viscosity.apply(state.phi, solids, dt, state.velocity); }
 
-void LiquidStages::project(double dt, LiquidStepReport& report) {
+/// Surface and velocity leap over each other: the velocity that carries the surface is that of the sub-step's
+/// middle, which makes free fall exact and waves second order in time. This brings the velocity of a fresh
+/// state there.
+void LiquidStages::leapAhead(double dt) {
+  if (state.subSteps > 0 || state.lead > 0) return;
+  state.lead = 0.5 * dt;
+  source.fill(0);
+  const HeldPockets held{pockets.label(), pockets.pockets(), pocketBooks.growth(pockets, dt)};
+  projection.project(state.phi, solids, state.lead, source, state.velocity, state.pressureGradient, &held);
+  extrapolate();
+  maxSpeed = maxFaceSpeed(state.phi, state.velocity);
+}
+
+/// Time [s] by which the velocity advances in a sub-step of dt, so that it leads the surface by half of the
+/// next one if that is as long.
+double LiquidStages::velocityAdvance(double dt) const {
+  return std::max(1.5 * dt - state.lead, kLeastAdvance * dt);
+}
+
+void LiquidStages::project(double dt, double advance, LiquidStepReport& report) {
   source.fill(0);
   if (params.volumeControl) volumeControl.addSource(bodies, solids, dt, source);
   inflows.addSource(source);
   report.drained += outflows.pump(state.time + dt, dt, state.phi, solids, source, volumeControl);
   const HeldPockets held{pockets.label(), pockets.pockets(), pocketBooks.growth(pockets, dt)};
   const ProjectionReport solve =
-      projection.project(state.phi, solids, dt, source, state.velocity, state.pressureGradient, &held);
+      projection.project(state.phi, solids, advance, source, state.velocity, state.pressureGradient, &held);
   report.pressureIterations += solve.iterations;
   report.pressureResidual = std::max(report.pressureResidual, solve.residual);
   report.divergence = std::max(report.divergence, solve.divergence);
@@ -222,6 +246,9 @@ void LiquidStages::checkFinite(double dt) const {
 }
 
 void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock) {
+  clock.time("pressure", [&] { leapAhead(dt); });
+  const double advance = velocityAdvance(dt);
+  clock.time("extrapolation", [&] { acceleration.find(state, solids, params, extrapolator); });
   clock.time("solids", [&] { moveSolids(dt); });
   clock.time("transport", [&] { transport(dt, report); });
   clock.time("correction", [&] { correctSurface(); });
@@ -232,9 +259,9 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("reseed", [&] { reseed(); });
   clock.time("pockets", [&] { fillPockets(dt); });
   clock.time("inflow", [&] { pour(dt, gas, report); });
-  clock.time("advection", [&] { moveVelocity(dt); });
-  if (params.viscosity > 0) clock.time("viscosity", [&] { applyViscosity(dt); });
-  clock.time("pressure", [&] { project(dt, report); });
+  clock.time("advection", [&] { moveVelocity(advance); });
+  if (params.viscosity > 0) clock.time("viscosity", [&] { applyViscosity(advance); });
+  clock.time("pressure", [&] { project(dt, advance, report); });
   clock.time("extrapolation", [&] { extrapolate(); });
   report.cfl = std::max(report.cfl, maxSpeed * dt / state.grid.dx);
   maxSpeed = maxFaceSpeed(state.phi, state.velocity);
@@ -242,6 +269,7 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   state.volume = volumeControl.ledger();
   state.volume.pocketGas = pocketBooks.gas();
   state.time += dt;
+  state.lead += advance - dt;
   ++state.subSteps;
   ++report.subSteps;
 }
@@ -249,9 +277,11 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
 void LiquidStages::measure(LiquidStepReport& report) {
   computeLiquidFraction(state.phi, solids, static_cast<float>(state.grid.dx), fraction);
   const LiquidEnergy energy =
-      liquidEnergy(state.grid, fraction, state.velocity, params.density, params.gravity);
-  report.kineticEnergy = energy.kinetic;
-  report.potentialEnergy = energy.potential;
+      liquidEnergy(state.grid, fraction, presentVelocity(state, solids, params.density, params.gravity),
+                   params.density, params.gravity);
+  const LiquidEnergy flying = energyOf(state.drops, params.density, params.gravity);
+  report.kineticEnergy = energy.kinetic + flying.kinetic;
+  report.potentialEnergy = energy.potential + flying.potential;
   report.maxSpeed = maxSpeed;
   report.liquidVolume = fluid::liquidVolume(state.grid, state.phi, solids);
   report.targetVolume = volumeControl.targetVolume();

@@ -13,6 +13,7 @@
 #include "fluid/marker_correction.h"
 #include "fluid/marker_escape.h"
 #include "fluid/marker_particles.h"
+#include "fluid/path_acceleration.h"
 #include "fluid/pocket_books.h"
 #include "fluid/projection.h"
 #include "fluid/reinitialize.h"
@@ -43,6 +44,7 @@ struct LiquidStages {
   LevelSetAdvection levelSetAdvection;
   Reinitializer reinitializer;
   VelocityAdvector velocityAdvector;
+  PathAcceleration acceleration;
   VelocityExtrapolator extrapolator;
   MarkerSorter sorter;
   MarkerSeeder seeder;
@@ -81,7 +83,9 @@ struct LiquidStages {
   void pour(double dt, const ImmersedGas& gas, LiquidStepReport& report);
   void moveVelocity(double dt);
   void applyViscosity(double dt);
-  void project(double dt, LiquidStepReport& report);
+  void leapAhead(double dt);
+  double velocityAdvance(double dt) const;
+  void project(double dt, double advance, LiquidStepReport& report);
   void extrapolate();
   void checkFinite(double dt) const;
   void measure(LiquidStepReport& report);

@@ -19,6 +19,7 @@ struct LiquidState {
   std::int64_t subSteps = 0;  ///< sub-steps taken since the start; keys the random numbers of reseeding
   DenseField<float> phi;      ///< signed distance to the surface at cell centres [m], < 0 in liquid
   MacVelocity velocity;       ///< [m/s], extrapolated into air and solids
+  double lead = 0;            ///< [s]; the velocity is that of time + lead, the middle of the coming sub-step
   MacField<float> pressureGradient;  ///< of the last projection on faces [Pa/m]; 0 away from the liquid
   MarkerSet positive, negative;
   VolumeLedger volume;          ///< what each connected body and each closed pocket should hold

@@ -8,8 +8,10 @@
 #include "fluid/level_set_advection.h"
 #include "fluid/marker_correction.h"
 #include "fluid/marker_particles.h"
+#include "fluid/marker_shares.h"
 #include "fluid/parallel.h"
 #include "fluid/reinitialize.h"
+#include "fluid/sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -76,6 +78,7 @@ struct Study {
   MarkerSorter sorter;
   MarkerSeeder seeder;
   MarkerCorrection correction;
+  MarkerShares shares;
 
   Study(const TransportCase& s, const TransportOptions& o, const GridSpec& grid)
       : scene(s),
@@ -85,7 +88,8 @@ struct Study {
         advection(grid),
         reinitializer(grid),
         sorter(grid),
-        seeder(grid) {
+        seeder(grid),
+        shares(grid) {
     state.grid = grid;
     state.velocity = MacVelocity(grid.cells);
     walls.closed.fill(false);
@@ -98,7 +102,23 @@ struct Study {
   void reseed();
   void correct();
   void step(double t, double dt);
+  double gridVolume() const;
+  double escapedVolume() const;
 };
+
+double Study::gridVolume() const { return liquidVolume(state.grid, state.phi, solids); }
+
+/// What the negative markers outside stand for, each with the volume it had when the grid last held it.
+double Study::escapedVolume() const {
+  const MarkerSet& markers = state.negative;
+  const FieldView phi(state.phi);
+  const float perDx = static_cast<float>(1 / state.grid.dx);
+  double sum = 0;
+  for (std::size_t n = 0; n < markers.size(); ++n)
+    if (perDx * sampleCentred(phi, markers.x[n], markers.y[n], markers.z[n]) > markers.radius[n])
+      sum += markers.gas[n];
+  return sum;
+}
 
 void Study::reseed() {
   seeder.reseed(markerScene(), state.phi, state.subSteps, state.positive, state.negative);
@@ -124,6 +144,7 @@ void Study::step(double t, double dt) {
   ++state.subSteps;
   state.time = t + dt;
   if (!options.markers) return;
+  if (options.budget) shares.refresh(markerScene(), state.phi, MarkerSign::negative, state.negative);
   adjustRadii(markerScene(), state.phi, MarkerSign::positive, state.positive);
   adjustRadii(markerScene(), state.phi, MarkerSign::negative, state.negative);
   if (state.subSteps % options.params.reseedInterval == 0) reseed();
@@ -182,10 +203,15 @@ TransportResult runTransport(const TransportCase& scene, const TransportOptions&
   result.steps = std::max(1, static_cast<int>(std::ceil(scene.duration * speed / (options.cfl * grid.dx))));
   const double dt = scene.duration / result.steps;
   using Clock = std::chrono::steady_clock;
+  const double volume0 = study.gridVolume();
   const Clock::time_point start = Clock::now();
   for (int n = 0; n < result.steps; ++n) {
     study.step(n * dt, dt);
     if (watch) watch(study.state, study.state.time);
+    if (!options.budget) continue;
+    result.escaped = study.escapedVolume() / volume0;
+    result.worstBudget =
+        std::max(result.worstBudget, std::abs(study.gridVolume() / volume0 + result.escaped - 1));
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   compare(study, result);

@@ -36,7 +36,8 @@ struct TransportOptions {
   double cfl = 0.5;  ///< max|u| dt/dx
   bool markers = true;
   bool reinitialise = true;
-  FluidParams params;  ///< transport scheme, markersPerCell and so on
+  bool budget = false;  ///< follow the volume that escaped negative markers stand for
+  FluidParams params;   ///< transport scheme, markersPerCell and so on
 };
 
 struct TransportResult {
@@ -44,6 +45,9 @@ struct TransportResult {
       0;                  ///< (end - start)/start; start is the exact volume of phi0 from 8^3 samples a cell
   double shapeError = 0;  ///< E1 = sum |f_end - f_exact| dV, per depth of the slab when planar
   double interfaceError = 0;  ///< E1 over the exact area (length) of the surface
+  double escaped =
+      0;  ///< volume that negative markers outside by more than their radius stand for, of the start
+  double worstBudget = 0;  ///< largest |grid + escaped - start|/start on the way, with `budget`
   double seconds = 0;
   int steps = 0;
   LiquidState state;  ///< at the end

@@ -85,12 +85,13 @@ VelocityAdvector::VelocityAdvector(const GridSpec& grid)
       high_(grid.cells),
       next_(grid.cells) {}
 
-void VelocityAdvector::forwardPass(int axis, const MacVelocity& velocity, float cellsPerSpeed) {
+void VelocityAdvector::forwardPass(int axis, const MacVelocity& velocity, const MacVelocity& carried,
+                                   float cellsPerSpeed) {
   const MacView wind(velocity);
-  const FieldView source(velocity[axis]);
+  const FieldView source(carried[axis]);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
   const std::array<float, 3> shift = faceShift(axis);
-  forEachRun(axis, forwardSpans_, velocity[axis], forward_[axis], [&](int i, int j, int k, int count) {
+  forEachRun(axis, forwardSpans_, carried[axis], forward_[axis], [&](int i, int j, int k, int count) {
     PathPoints centre, startWind, from;
     faceStarts(velocity, axis, i, j, k, centre, startWind);
     tracePaths(wind, top, -cellsPerSpeed, centre, startWind, from);
@@ -102,24 +103,25 @@ void VelocityAdvector::forwardPass(int axis, const MacVelocity& velocity, float 
   });
 }
 
-void VelocityAdvector::correctingPass(int axis, const MacVelocity& velocity, float cellsPerSpeed) {
+void VelocityAdvector::correctingPass(int axis, const MacVelocity& velocity, const MacVelocity& carried,
+                                      float cellsPerSpeed) {
   const MacView wind(velocity);
   const FieldView forward(forward_[axis]);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
   const std::array<float, 3> shift = faceShift(axis);
-  forEachRun(axis, wet_, velocity[axis], next_[axis], [&](int i, int j, int k, int count) {
+  forEachRun(axis, wet_, carried[axis], next_[axis], [&](int i, int j, int k, int count) {
     PathPoints centre, startWind, returned;
     faceStarts(velocity, axis, i, j, k, centre, startWind);
     tracePaths(wind, top, cellsPerSpeed, centre, startWind, returned);
     RunValues corrected;
-    correctRun(forward, shift, returned, &velocity[axis](i, j, k), &forward_[axis](i, j, k),
+    correctRun(forward, shift, returned, &carried[axis](i, j, k), &forward_[axis](i, j, k),
                &low_[axis](i, j, k), &high_[axis](i, j, k), corrected.value);
     std::copy_n(corrected.value, count, &next_[axis](i, j, k));
   });
 }
 
 void VelocityAdvector::advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt,
-                               MacVelocity& velocity) {
+                               const MacVelocity& velocity, MacVelocity& carried) {
   const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
   const bool corrected = scheme == VelocityAdvection::macCormack;
   const float limit = kReach * static_cast<float>(grid_.dx);
@@ -127,15 +129,15 @@ void VelocityAdvector::advance(VelocityAdvection scheme, const DenseField<float>
   forwardSpans_ = wet_;
   // The correcting pass reads forward values as far out as a path is long, and one stencil more.
   if (corrected) forwardSpans_.grow(static_cast<int>(std::ceil(largestSpeed(velocity) * cellsPerSpeed)) + 1);
-  for (int axis = 0; axis < 3; ++axis) forwardPass(axis, velocity, cellsPerSpeed);
+  for (int axis = 0; axis < 3; ++axis) forwardPass(axis, velocity, carried, cellsPerSpeed);
   if (corrected) {
     fillGhostLayers(forward_);
-    for (int axis = 0; axis < 3; ++axis) correctingPass(axis, velocity, cellsPerSpeed);
-    std::swap(velocity, next_);
+    for (int axis = 0; axis < 3; ++axis) correctingPass(axis, velocity, carried, cellsPerSpeed);
+    std::swap(carried, next_);
   } else {
-    std::swap(velocity, forward_);
+    std::swap(carried, forward_);
   }
-  fillGhostLayers(velocity);
+  fillGhostLayers(carried);
 }
 
 }  // namespace spume::fluid

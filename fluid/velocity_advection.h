@@ -7,20 +7,26 @@
 
 namespace spume::fluid {
 
-/// Moves the velocity with itself: u_t + u . grad u = 0 on the faces near liquid. Holds scratch fields.
+/// Moves a velocity, or what is given like one, with the liquid: q_t + u . grad q = 0 on the faces near
+/// liquid. Holds scratch fields.
 class VelocityAdvector {
  public:
   explicit VelocityAdvector(const GridSpec& grid);
 
-  /// Advances `velocity` by dt [s] on the stretches of faces within 2 dx of liquid; other faces keep their
-  /// values. Paths by the midpoint rule, kept inside the grid; macCormack adds the returned error's half and
-  /// limits the result to the values it was interpolated from [Selle et al. 2008]. Ghosts of `velocity` and
-  /// `phi` must be filled; those of `velocity` are refilled.
-  void advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt, MacVelocity& velocity);
+  /// Advances `carried` by dt [s] with `velocity` on the stretches of faces within 2 dx of liquid; other
+  /// faces keep their values. Paths by the midpoint rule, kept inside the grid; macCormack adds the returned
+  /// error's half and limits the result to the values it was interpolated from [Selle et al. 2008]. Ghosts of
+  /// all fields must be filled; those of `carried` are refilled.
+  void advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt, const MacVelocity& velocity,
+               MacVelocity& carried);
+  /// The velocity moves itself.
+  void advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt, MacVelocity& velocity) {
+    advance(scheme, phi, dt, velocity, velocity);
+  }
 
  private:
-  void forwardPass(int axis, const MacVelocity& velocity, float cellsPerSpeed);
-  void correctingPass(int axis, const MacVelocity& velocity, float cellsPerSpeed);
+  void forwardPass(int axis, const MacVelocity& velocity, const MacVelocity& carried, float cellsPerSpeed);
+  void correctingPass(int axis, const MacVelocity& velocity, const MacVelocity& carried, float cellsPerSpeed);
 
   GridSpec grid_;
   RowSpans wet_, forwardSpans_;  ///< what the correcting and the forward pass move

@@ -19,6 +19,46 @@ double gauge(const fluid::LiquidState& state, double x, double z) {
   return height;
 }
 
+/// What the four pressure gauges on the box's front read while the water meets it.
+struct ImpactRecord {
+  static constexpr int kGauges = 4;
+  static constexpr double kRisen = 500;  ///< pressure that counts as wetted [Pa]
+  std::array<double, kGauges> peak{}, peakTime{};
+  double rise = 0;  ///< when the lowest gauge is wetted [s]
+  void note(const fluid::LiquidSolver& solver) {
+    const fluid::GridSpec& grid = solver.state().grid;
+    for (int n = 0; n < kGauges; ++n) {
+      const Eigen::Vector3d place(.8245, .021 + .04 * n, .471);
+      const Eigen::Vector3i cell = grid.toCells(place).array().floor().cast<int>().matrix();
+      const double p = solver.pressure()(cell);
+      if (n == 0 && rise == 0 && p > kRisen) rise = solver.state().time;
+      if (p > peak[n]) peak[n] = p, peakTime[n] = solver.state().time;
+    }
+  }
+};
+
+/// Rows of the impact: [SPHERIC test 2] P1 to P4.
+void addImpact(const ImpactRecord& impact, std::vector<ResultRow>& rows) {
+  constexpr std::array<double, ImpactRecord::kGauges> kPeak{11.2e3, 8.13e3, 6.56e3, 7.2e3};
+  constexpr std::array<const char*, ImpactRecord::kGauges> kText{"11.2 kPa", "8.13 kPa; interFoam -15.5 %",
+                                                                 "6.56 kPa", "7.2 kPa"};
+  constexpr double kRise = .393;
+  ResultRow r;
+  r.resolution = "103 x 32 x 32";
+  r.source = "Kleefsman et al. 2005, distributed data";
+  r.quantity = "error of the time P1 rises";
+  r.reference = ".393 s; interFoam +2.4 %";
+  rows.push_back(aimAtMost(r, 100 * (impact.rise / kRise - 1), 3, "%"));
+  for (int n = 0; n < ImpactRecord::kGauges; ++n) {
+    r.quantity = "error of the peak of P" + std::to_string(n + 1);
+    r.reference = kText[n];
+    const double error = 100 * (impact.peak[n] / kPeak[n] - 1);
+    rows.push_back(n == 1 ? aimAtMost(r, error, 20, "%") : reportOnly(r, error, "%"));
+    r.aim.clear();
+    r.verdict = Verdict::none;
+  }
+}
+
 /// F10: a column 0.55 m high meets a box on the floor of a tank [SPHERIC test 2]. Heights in metres.
 std::vector<ResultRow> boxInTank(const StudyContext&) {
   constexpr int kAcross = 32;
@@ -43,9 +83,17 @@ std::vector<ResultRow> boxInTank(const StudyContext&) {
   fluid::LiquidSolver solver(params, {grid, openTop(), {box}, {}}, phi0);
   double error2 = 0, error4 = 0, peak = 0, peakTime = 0;
   std::size_t next = 0;
-  constexpr double kStep = 0.01;
+  ImpactRecord impact;
+  constexpr double kStep = 0.01, kImpactEnd = 0.55;
   while (next < kMeasured.size() || solver.state().time < 2) {
-    solver.step(kStep);
+    if (solver.state().time < kImpactEnd) {
+      for (int n = 0; n < 4; ++n) {
+        solver.step(0.25 * kStep);
+        impact.note(solver);
+      }
+    } else {
+      solver.step(kStep);
+    }
     const double t = solver.state().time, h2 = gauge(solver.state(), .992, .5);
     if (h2 > peak) peak = h2, peakTime = t;
     if (next == kMeasured.size() || t < kMeasured[next].time - 0.5 * kStep) continue;
@@ -66,9 +114,12 @@ std::vector<ResultRow> boxInTank(const StudyContext&) {
   h4.reference = ".426, .277, .147 m; interFoam 1.8 %";
   top.reference = ".341 m";
   arrival.reference = "1.787 s";
-  return {aimAtMost(h2, 100 * error2 / kLargest2, 4, "%"), aimAtMost(h4, 100 * error4 / kLargest4, 4, "%"),
-          reportOnly(top, 100 * (peak / kLargest2 - 1), "%"),
-          aimAtMost(arrival, 100 * (peakTime / 1.787 - 1), 3, "%")};
+  std::vector<ResultRow> rows{aimAtMost(h2, 100 * error2 / kLargest2, 4, "%"),
+                              aimAtMost(h4, 100 * error4 / kLargest4, 4, "%"),
+                              reportOnly(top, 100 * (peak / kLargest2 - 1), "%"),
+                              aimAtMost(arrival, 100 * (peakTime / 1.787 - 1), 3, "%")};
+  addImpact(impact, rows);
+  return rows;
 }
 
 /// F12: a nozzle of 2 cm fills a box of 16 cm at 0.5 m/s.

@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fluid/liquid_solver.h"
+#include "tests/support/fluid_fields.h"
+
+namespace spume::fluid {
+namespace {
+
+using namespace test;
+
+constexpr double kGravity = 9.8, kRadius = 0.2;
+
+/// A ball of liquid that falls in an empty box of 1 m, and the height of its centre.
+struct FallingBall {
+  GridSpec grid = unitCube(24);
+  Eigen::Vector3d centre{0.51, 0.68, 0.48};
+  LiquidSolver solver{FluidParams{}, {grid, closedWalls(), {}, {}}, [this](const Eigen::Vector3d& x) {
+                        return (x - centre).norm() - kRadius;
+                      }};
+
+  double height() const {
+    double sum = 0, volume = 0;
+    for (int i = 0; i < grid.cells.x(); ++i)
+      for (int j = 0; j < grid.cells.y(); ++j)
+        for (int k = 0; k < grid.cells.z(); ++k) {
+          const double part = std::clamp(0.5 - solver.state().phi(i, j, k) / grid.dx, 0.0, 1.0);
+          volume += part;
+          sum += part * grid.cellCentre(i, j, k).y();
+        }
+    return sum / volume;
+  }
+};
+
+/// The surface follows g t^2/2, also where the step changes: leapfrog is exact for constant acceleration at
+/// equal steps, and a step that changes by h costs g h/2 times the time until the lead is taken back, one
+/// step.
+TEST(TimeStepping, FreeFallIsExactAtUnequalSteps) {
+  FallingBall ball;
+  const double start = ball.height();
+  double t = 0;
+  for (const double dt : {0.03, 0.03, 0.02, 0.02, 0.01, 0.03, 0.03}) {
+    ball.solver.step(dt);
+    t += dt;
+  }
+  const double fallen = start - ball.height();
+  // Without the lead the ball would lag by g t dt/2 = 0.6 dx.
+  EXPECT_NEAR(fallen, 0.5 * kGravity * t * t, 0.1 * ball.grid.dx);
+}
+
+/// The velocity leads by half a step, the reported energies do not: those of a falling ball sum up to what it
+/// had.
+TEST(TimeStepping, EnergiesBelongToOneTime) {
+  FallingBall ball;
+  const double start = ball.solver.step(0.02).potentialEnergy;
+  LiquidStepReport first = ball.solver.step(0.02), last;
+  for (int n = 0; n < 5; ++n) last = ball.solver.step(0.02);
+  const double released = first.potentialEnergy - last.potentialEnergy;
+  const double gained = last.kineticEnergy - first.kineticEnergy;
+  ASSERT_LT(last.potentialEnergy, start);
+  EXPECT_NEAR(gained / released, 1, 0.02);  // led by half a step it would be 1.1
+}
+
+TEST(TimeStepping, StillLiquidStaysStillAsItsStepChanges) {
+  LiquidSolver solver({}, {unitCube(12), closedWalls(), {}, {}},
+                      [](const Eigen::Vector3d& x) { return x.y() - 0.53; });
+  double fastest = 0;
+  for (const double dt : {0.02, 0.005, 0.03, 0.01}) fastest = std::max(fastest, solver.step(dt).maxSpeed);
+  EXPECT_LE(fastest, 1e-8);
+}
+
+TEST(TimeStepping, ResumesToTheBitBetweenUnequalSteps) {
+  FallingBall ball;
+  ball.solver.step(0.02);
+  LiquidSolver resumed(FluidParams{}, {ball.grid, closedWalls(), {}, {}}, ball.solver.state());
+  ball.solver.step(0.01);
+  resumed.step(0.01);
+  EXPECT_EQ(ball.solver.state().lead, resumed.state().lead);
+  for (int a = 0; a < 3; ++a)
+    EXPECT_TRUE(sameBits(ball.solver.state().velocity[a], resumed.state().velocity[a]));
+}
+
+}  // namespace
+}  // namespace spume::fluid
