@@ -90,72 +90,14 @@ void VelocityExtrapolator::spread(int axis, int layer, const DenseField<float>& 
   });
 }
 
-/// What flows out of an air cell [m/s], shared by its faces that lie beyond it: unknown ones opposite to a
-/// known one.
-float VelocityExtrapolator::outflowShare(const Eigen::Vector3i& cell, const MacVelocity& velocity) const {
-  float net = 0;
-  int beyond = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3i upper = cell + Eigen::Vector3i::Unit(axis);
-    const DenseField<std::uint8_t>& marks = layers_[axis].marks();
-    net += velocity[axis](upper) - velocity[axis](cell);
-    beyond += (marks(upper) == 0) != (marks(cell) == 0);
-  }
-  return net / static_cast<float>(beyond);
-}
-
-/// What to take from a face of the first layer so that the air cells between it and known faces keep their
-/// volume.
-float VelocityExtrapolator::excessOf(int axis, const Eigen::Vector3i& face, const DenseField<float>& phi,
-                                     const SolidBoundary& solids, const MacVelocity& velocity) const {
-  float sum = 0;
-  int cells = 0;
-  for (const int side : {-1, 1}) {
-    const Eigen::Vector3i opposite = face + side * Eigen::Vector3i::Unit(axis);
-    const Eigen::Vector3i cell = side > 0 ? face : opposite;
-    const bool inside = phi.contains(cell.x(), cell.y(), cell.z());
-    if (!inside || layers_[axis].marks()(opposite) != 0) continue;
-    if (phi(cell) < 0 || solids.cellFraction(cell) < 1) continue;
-    sum -= static_cast<float>(side) * outflowShare(cell, velocity);
-    ++cells;
-  }
-  return cells > 0 ? sum / static_cast<float>(cells) : 0;
-}
-
-/// A surface lies between faces: carried by a velocity that is constant beyond the known faces it would lag
-/// by up to half a cell's change of it. The flow of a liquid goes on without divergence, so the outer faces
-/// of the first air cells let out what flows in.
-void VelocityExtrapolator::conserve(const DenseField<float>& phi, const SolidBoundary& solids,
-                                    MacVelocity& velocity) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto faces = layers_[axis].layer(1);
-    excess_[axis].resize(faces.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kFaceGrain), [&](const auto& range) {
-      RowCursor at(velocity[axis]);
-      for (std::size_t n = range.begin(); n < range.end(); ++n) {
-        at.seek(faces[n]);
-        excess_[axis][n] = excessOf(axis, {at.i, at.j, at.k}, phi, solids, velocity);
-      }
-    });
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto faces = layers_[axis].layer(1);
-    for (std::size_t n = 0; n < faces.size(); ++n) velocity[axis].data()[faces[n]] -= excess_[axis][n];
-  }
-}
-
 void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBoundary& solids, int layers,
                                  MacVelocity& velocity) {
   for (int axis = 0; axis < 3; ++axis) {
     markKnown(axis, phi, solids);
     layers_[axis].grow(layers, 1);
-    spread(axis, 1, phi, velocity[axis]);
-  }
-  conserve(phi, solids, velocity);
-  for (int axis = 0; axis < 3; ++axis) {
     DenseField<float>& component = velocity[axis];
     const DenseField<std::uint8_t>& marks = layers_[axis].marks();
-    for (int layer = 2; layer <= layers; ++layer) spread(axis, layer, phi, component);
+    for (int layer = 1; layer <= layers; ++layer) spread(axis, layer, phi, component);
     forEachRow(marks.size(), [&](int i, int j) {
       clearUnreachedRow(&marks(i, j, 0), marks.size().z(), &component(i, j, 0));
     });

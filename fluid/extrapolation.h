@@ -10,8 +10,7 @@
 
 namespace spume::fluid {
 
-/// Continues the liquid's velocity into air and solids: without divergence in the first cell of air, constant
-/// along the surface normal beyond.
+/// Continues the liquid's velocity into air and solids, constant along the surface normal.
 class VelocityExtrapolator {
  public:
   explicit VelocityExtrapolator(const GridSpec& grid);
@@ -24,15 +23,10 @@ class VelocityExtrapolator {
 
  private:
   void markKnown(int axis, const DenseField<float>& phi, const SolidBoundary& solids);
-  float outflowShare(const Eigen::Vector3i& cell, const MacVelocity& velocity) const;
-  float excessOf(int axis, const Eigen::Vector3i& face, const DenseField<float>& phi,
-                 const SolidBoundary& solids, const MacVelocity& velocity) const;
-  void conserve(const DenseField<float>& phi, const SolidBoundary& solids, MacVelocity& velocity);
   void spread(int axis, int layer, const DenseField<float>& phi, DenseField<float>& component) const;
 
   GridSpec grid_;
   std::array<LayerList, 3> layers_;
-  std::array<std::vector<float>, 3> excess_;  ///< of the faces of the first layer [m/s]
 };
 
 /// Gives closed faces (open = 0) the normal velocity of their solid and prescribed faces that of their

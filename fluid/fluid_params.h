@@ -6,7 +6,7 @@
 namespace spume::fluid {
 
 enum class LevelSetTransport { semiLagrangian, weno5 };
-enum class VelocityAdvection { semiLagrangian, macCormack };
+enum class VelocityAdvection { semiLagrangian, macCormack, trapezoidal };
 
 /// Every number that tunes the liquid. `validate()` is called once, by LiquidSolver's constructor.
 struct FluidParams {

@@ -191,7 +191,10 @@ void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& rep
 }
 
 void LiquidStages::moveVelocity(double dt) {
-  acceleration.advect(params.velocityAdvection, state.phi, dt, velocityAdvector, state.velocity);
+  if (params.velocityAdvection == VelocityAdvection::trapezoidal)
+    acceleration.advect(state.phi, dt, velocityAdvector, state.velocity);
+  else
+    velocityAdvector.advance(params.velocityAdvection, state.phi, dt, state.velocity);
   depositMomentum(state.grid, landed, state.velocity);
   constrainToSolids(solids, state.velocity);
   inflows.setVelocity(state.velocity);
@@ -248,7 +251,8 @@ void LiquidStages::checkFinite(double dt) const {
 void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock) {
   clock.time("pressure", [&] { leapAhead(dt); });
   const double advance = velocityAdvance(dt);
-  clock.time("extrapolation", [&] { acceleration.find(state, solids, params, extrapolator); });
+  if (params.velocityAdvection == VelocityAdvection::trapezoidal)
+    clock.time("extrapolation", [&] { acceleration.find(state, solids, params, extrapolator); });
   clock.time("solids", [&] { moveSolids(dt); });
   clock.time("transport", [&] { transport(dt, report); });
   clock.time("correction", [&] { correctSurface(); });

@@ -61,11 +61,11 @@ void PathAcceleration::find(const LiquidState& state, const SolidBoundary& solid
   clearGiven(solids, acceleration_);
 }
 
-void PathAcceleration::advect(VelocityAdvection scheme, const DenseField<float>& phi, double dt,
-                              VelocityAdvector& advector, MacVelocity& velocity) {
+void PathAcceleration::advect(const DenseField<float>& phi, double dt, VelocityAdvector& advector,
+                              MacVelocity& velocity) {
   const float half = static_cast<float>(0.5 * dt);
   add(velocity, acceleration_, half, carried_);
-  advector.advance(scheme, phi, dt, velocity, carried_);
+  advector.advance(VelocityAdvection::trapezoidal, phi, dt, velocity, carried_);
   add(carried_, acceleration_, -half, velocity);
 }
 

@@ -123,7 +123,7 @@ void VelocityAdvector::correctingPass(int axis, const MacVelocity& velocity, con
 void VelocityAdvector::advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt,
                                const MacVelocity& velocity, MacVelocity& carried) {
   const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
-  const bool corrected = scheme == VelocityAdvection::macCormack;
+  const bool corrected = scheme != VelocityAdvection::semiLagrangian;
   const float limit = kReach * static_cast<float>(grid_.dx);
   wet_.find(phi, [limit](float value) { return value < limit; });
   forwardSpans_ = wet_;
