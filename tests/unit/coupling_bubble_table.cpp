@@ -129,7 +129,8 @@ TEST(BubbleTable, CachesOfARunReadBack) {
   writeBubblesPly(base + ".ply", bubbles, {});
   for (const std::string ending : {".vdb", ".ply"}) {
     SCOPED_TRACE(ending);
-    expectSame(readBubbleTable(base + ending), {bubbles.id, bubbles.position, {.0625, .5}, bubbles.velocity});
+    expectSame(readBubbleTable(base + ending),
+               {bubbles.id, bubbles.position, {.0625, .5}, bubbles.velocity, {}});
     std::remove((base + ending).c_str());
   }
 }
