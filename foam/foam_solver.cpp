@@ -17,6 +17,7 @@
 #include "foam/surroundings.h"
 #include "foam/volume_correction.h"
 #include "foam/wall_cells.h"
+#include "foam/wall_limit.h"
 
 namespace spume::foam {
 namespace {
@@ -197,6 +198,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("solve");
   s.integrator.advance(dt, s.next);
   requireFinite(s.next);
+  keepOutOfSolids(liquid, s.next);
   if (holdsVolumes(s.params)) s.holdVolumes(liquid);
   clock.end("volume");
   s.relabelAtEnd(liquid);
