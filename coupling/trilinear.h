@@ -17,13 +17,15 @@ struct TrilinearCell {
 };
 
 /// Where `inCells` (from the grid's low corner) lies among the samples of a window of `size` points, the
-/// first of which sits at `first` cells. Every size must be at least 2.
+/// first of which sits at `first` cells. Every size must be at least 2. With `ghosts` the layer of ghosts on
+/// every side counts, too.
 inline TrilinearCell locate(const Eigen::Vector3i& size, const Eigen::Vector3d& first,
-                            const Eigen::Vector3d& inCells) {
+                            const Eigen::Vector3d& inCells, bool ghosts = false) {
   TrilinearCell cell;
   for (int axis = 0; axis < 3; ++axis) {
     const double place = inCells[axis] - first[axis];
-    cell.corner[axis] = std::clamp(static_cast<int>(std::floor(place)), 0, size[axis] - 2);
+    cell.corner[axis] =
+        std::clamp(static_cast<int>(std::floor(place)), ghosts ? -1 : 0, size[axis] - (ghosts ? 1 : 2));
     cell.along[axis] = place - cell.corner[axis];
   }
   return cell;

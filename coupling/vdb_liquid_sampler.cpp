@@ -67,15 +67,16 @@ struct VdbLiquidSampler::Source {
     return value;
   }
 
+  /// In an edge of the domain psi does not rise square to either wall; only the ghosts know where these are.
   double psiAt(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d inside = insideGrid(x);
-    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside));
+    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside), solids != nullptr);
     return TrilinearSamples(*psi, cell).interpolate(cell) - (x - inside).norm();
   }
 
   Eigen::Vector3d gradPsiAt(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d inside = insideGrid(x), beyond = x - inside;
-    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside));
+    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside), solids != nullptr);
     Eigen::Vector3d gradient = TrilinearSamples(*psi, cell).gradient(cell) / grid.dx;
     for (int axis = 0; axis < 3; ++axis)
       if (beyond[axis] != 0)

@@ -34,7 +34,10 @@ struct Liquid {
     state.velocity = state.pressureGradient = fluid::MacField<float>(grid.cells);
     solids.open = fluid::MacField<float>(grid.cells, 1.0f);
     eachPoint(grid.cells, [&](int i, int j, int k) {
-      state.phi(i, j, k) = solids.psi(i, j, k) = static_cast<float>(field(grid.cellCentre(i, j, k)));
+      state.phi(i, j, k) = static_cast<float>(field(grid.cellCentre(i, j, k)));
+    });
+    eachPoint(grid.cells + Eigen::Vector3i::Constant(2), [&](int i, int j, int k) {  // ghosts, too
+      solids.psi(i - 1, j - 1, k - 1) = static_cast<float>(field(grid.cellCentre(i - 1, j - 1, k - 1)));
     });
     for (int axis = 0; axis < 3; ++axis)
       eachPoint(state.velocity[axis].size(), [&](int i, int j, int k) {
@@ -131,6 +134,23 @@ TEST(VdbLiquidSampler, OutsideTheGridWallsAreDeepAndFieldsAreHeld) {
   EXPECT_NEAR(psi[1], psi[0] - 0.25, kFloatError);
   EXPECT_NEAR(phi[1], linear(x.col(1)), 10 * kFloatError);
   EXPECT_EQ(velocity.col(1), velocity.col(0));
+}
+
+/// Along an edge the distance is that to the nearer wall, in the last half cell as well.
+TEST(VdbLiquidSampler, EdgesOfTheDomainKeepBothWalls) {
+  const Eigen::Vector3d corner(-0.2, 0.3, 0);
+  const auto edge = [&](const Eigen::Vector3d& x) {
+    return std::min(x.x() - corner.x(), x.y() - corner.y());
+  };
+  const Liquid liquid(edge, linearVelocity);
+  const VdbLiquidSampler sampler(liquid.state, liquid.solids);
+  Eigen::Matrix3Xd x(3, 2);
+  x.col(0) = Eigen::Vector3d(-0.2, 0.39, 0.8);  // on one wall, 0.9 cells from the other
+  x.col(1) = Eigen::Vector3d(-0.21, 0.39, 0.8);
+  Eigen::VectorXd psi(2);
+  sampler.psi(x, psi);
+  EXPECT_NEAR(psi[0], 0, kFloatError);
+  EXPECT_NEAR(psi[1], -0.01, kFloatError);
 }
 
 TEST(VdbLiquidSampler, PressureGradientIsContinuedAboveTheSurface) {
