@@ -38,10 +38,10 @@ class Watched {
     liquid->sampler()->psi(bubbles.positions(), toSolids);
   }
 
-  /// Every bubble is accounted for, none is in a solid or has left, and the gas adds up.
-  void expectSound() const {
+  /// Every bubble is accounted for, none is in a solid, none or few have left, and the gas adds up.
+  void expectSound(double mostLeft = 0) const {
     EXPECT_EQ(born - ended, simulation.bubbles().size());
-    EXPECT_EQ(left, 0u);
+    EXPECT_LE(static_cast<double>(left), mostLeft);
     EXPECT_EQ(insideSolids(simulation.bubbles(), toSolids), 0u);
     EXPECT_LT(std::abs(last.gas.imbalance()), kLedger * last.gas.entered());
   }
@@ -134,7 +134,9 @@ Watched coarseCoke(const std::string& name) {
 }
 
 void expectPoured(const Watched& coke) {
-  coke.expectSound();
+  // Share that the splash throws over the rim: measured 0.5 to 1.3 %, a few bubbles.
+  constexpr double kThrown = 0.03;
+  coke.expectSound(kThrown * static_cast<double>(coke.born));
   constexpr double kFlux = 0.4 * std::numbers::pi * 0.009 * 0.009, kOpen = 0.5;  // [m^3/s], [s]
   // The nozzle's own cells are filled once, and volume control follows the splash with a delay.
   constexpr double kNozzle = 0.15, kVolume = 0.02;
@@ -142,9 +144,7 @@ void expectPoured(const Watched& coke) {
   EXPECT_NEAR(coke.last.liquid.liquidVolume, coke.last.liquid.targetVolume,
               kVolume * coke.last.liquid.targetVolume);
   constexpr double kRadius = 0.04, kRim = 0.1085, kAxis = 0.06;  // of the mug [m]
-  // Share that the splash throws over the rim: measured 0.5 to 1.3 %, a few bubbles.
-  constexpr double kThrown = 0.03;
-  std::size_t outside = 0;
+  std::size_t outside = coke.left;
   for (const Eigen::Vector3d& x : coke.simulation.bubbles().position)
     outside += x.y() < kRim && std::hypot(x.x() - kAxis, x.z() - kAxis) > kRadius;
   EXPECT_LE(outside, kThrown * static_cast<double>(coke.born));
