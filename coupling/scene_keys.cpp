@@ -49,7 +49,8 @@ KeyTable liquidTable() {
       .key("density", &FluidParams::density, {1, 20000, "kg/m^3"}, "rho; water 1000")
       .choice("level_set_transport", &FluidParams::levelSetTransport, {"semi_lagrangian", "weno5"},
               "the markers carry the accuracy, so the first will do")
-      .choice("velocity_advection", &FluidParams::velocityAdvection, {"semi_lagrangian", "maccormack", "trapezoidal"},
+      .choice("velocity_advection", &FluidParams::velocityAdvection,
+              {"semi_lagrangian", "maccormack", "trapezoidal"},
               "maccormack is second order in space, clamped; trapezoidal in time, too: smooth flows")
       .key("cfl", &FluidParams::cfl, {0.2, 10, "-"}, "largest max|u| dt/dx of a sub-step")
       .key("markers_per_cell", &FluidParams::markersPerCell, {8, 64, "-"},

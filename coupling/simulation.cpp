@@ -164,6 +164,7 @@ void Simulation::Internals::stepFoam(double dt, StepReport& report) {
     takeFoamEvents(now, report);
     burst += now.gasBurst;
     now.solverIterations += report.foam.solverIterations;
+    now.pushedOut += report.foam.pushedOut;
     addStageTimes(report.foam.stages, now.stages);
     report.foam = std::move(now);
   }

@@ -118,6 +118,7 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("overlaps", "-", "overlapping pairs", [](const R& r) { return r.foam.overlaps; }),
       step("hidden", "-", "bubbles swallowed by others", [](const R& r) { return r.foam.hidden; }),
       step("clamped", "-", "bubbles at the limit of their radius", [](const R& r) { return r.foam.clamped; }),
+      step("pushed_out", "-", "bubbles taken out of solids", [](const R& r) { return r.foam.pushedOut; }),
       step("foam_iterations", "-", "of the implicit step",
            [](const R& r) { return r.foam.solverIterations; }),
       step("foam_residual", "-", "of the implicit step", [](const R& r) { return r.foam.solverResidual; }),

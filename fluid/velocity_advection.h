@@ -14,9 +14,9 @@ class VelocityAdvector {
   explicit VelocityAdvector(const GridSpec& grid);
 
   /// Advances `carried` by dt [s] with `velocity` on the stretches of faces within 2 dx of liquid; other
-  /// faces keep their values. Paths by the midpoint rule, kept inside the grid; all but semiLagrangian add the returned
-  /// error's half and limits the result to the values it was interpolated from [Selle et al. 2008]. Ghosts of
-  /// all fields must be filled; those of `carried` are refilled.
+  /// faces keep their values. Paths by the midpoint rule, kept inside the grid; all but semiLagrangian
+  /// add the returned error's half and limit the result to the values it was interpolated from [Selle et al.
+  /// 2008]. Ghosts of all fields must be filled; those of `carried` are refilled.
   void advance(VelocityAdvection scheme, const DenseField<float>& phi, double dt, const MacVelocity& velocity,
                MacVelocity& carried);
   /// The velocity moves itself.

@@ -198,7 +198,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("solve");
   s.integrator.advance(dt, s.next);
   requireFinite(s.next);
-  keepOutOfSolids(liquid, s.next);
+  report.pushedOut = keepOutOfSolids(liquid, s.next);
   if (holdsVolumes(s.params)) s.holdVolumes(liquid);
   clock.end("volume");
   s.relabelAtEnd(liquid);

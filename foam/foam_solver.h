@@ -35,6 +35,7 @@ struct FoamStageTime {
 struct FoamStepReport {
   std::size_t bubbles = 0, liquid = 0, surface = 0, air = 0;
   std::size_t contacts = 0, overlaps = 0, hidden = 0, clamped = 0;
+  std::size_t pushedOut = 0;  ///< bubbles taken out of solids at the end, see wall_limit.h
   int solverIterations = 0;
   double solverResidual = 0;
   bool solverFellBack = false;                       ///< the iteration stalled, the direct solver finished it
