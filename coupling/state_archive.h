@@ -155,9 +155,9 @@ void archive(Archive& a, fluid::LiquidState& liquid) {
   auto& [grid, time, subSteps, phi, velocity, lead, pressureGradient, positive, negative, volume, drops,
          dropsEver] = liquid;
   auto& [cells, dx, origin] = grid;
-  auto& [target, unassigned, pocketGas] = volume;
+  auto& [target, loss, unassigned, pocketGas] = volume;
   archiveAll(a, cells, dx, origin, time, subSteps, phi, velocity, lead, pressureGradient, positive, negative,
-             target, unassigned, pocketGas, drops, dropsEver);
+             target, loss, unassigned, pocketGas, drops, dropsEver);
 }
 
 template <typename Archive>

@@ -90,6 +90,44 @@ void VelocityExtrapolator::spread(int axis, int layer, const DenseField<float>& 
   });
 }
 
+/// What flows out of an air cell [m/s], shared by its faces that lie beyond it: unknown ones opposite to a
+/// known one.
+float VelocityExtrapolator::outflowShare(const Eigen::Vector3i& cell, const MacVelocity& velocity) const {
+  float net = 0;
+  int beyond = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3i upper = cell + Eigen::Vector3i::Unit(axis);
+    const DenseField<std::uint8_t>& marks = layers_[axis].marks();
+    net += velocity[axis](upper) - velocity[axis](cell);
+    beyond += (marks(upper) == 0) != (marks(cell) == 0);
+  }
+  return net / static_cast<float>(beyond);
+}
+
+/// What to add to a face of the first layer so that the air cell between it and a known face keeps its
+/// volume, no more than the change of velocity from the known face before that one goes on. 0 where known
+/// faces lie on both sides: what closes there is not one flow.
+float VelocityExtrapolator::continuation(int axis, const Eigen::Vector3i& face, const DenseField<float>& phi,
+                                         const SolidBoundary& solids, const MacVelocity& velocity) const {
+  const DenseField<std::uint8_t>& marks = layers_[axis].marks();
+  const DenseField<float>& u = velocity[axis];
+  const Eigen::Vector3i step = Eigen::Vector3i::Unit(axis);
+  const auto known = [&](int reach) {
+    const Eigen::Vector3i f = face + reach * step;
+    return f[axis] >= 0 && f[axis] < marks.size()[axis] && marks(f) == 0;
+  };
+  const bool below = known(-1), above = known(1);
+  if (below == above) return 0;
+  const int side = below ? -1 : 1;
+  const Eigen::Vector3i cell = below ? Eigen::Vector3i(face - step) : face;
+  if (!known(2 * side) || known(-2 * side)) return 0;
+  if (!(phi(cell) >= 0) || solids.cellFraction(cell) < 1) return 0;
+  const float balance = static_cast<float>(side) * outflowShare(cell, velocity);
+  const float goesOn = 2 * u(face + side * step) - u(face + 2 * side * step) - u(face);
+  if (!(balance * goesOn > 0)) return 0;
+  return std::abs(balance) < std::abs(goesOn) ? balance : goesOn;
+}
+
 void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBoundary& solids, int layers,
                                  MacVelocity& velocity) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -101,6 +139,30 @@ void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBounda
     forEachRow(marks.size(), [&](int i, int j) {
       clearUnreachedRow(&marks(i, j, 0), marks.size().z(), &component(i, j, 0));
     });
+  }
+  fillGhostLayers(velocity);
+}
+
+void VelocityExtrapolator::goOn(const DenseField<float>& phi, const SolidBoundary& solids,
+                                MacVelocity& velocity) {
+  for (int axis = 0; axis < 3; ++axis) {
+    markKnown(axis, phi, solids);
+    layers_[axis].grow(1, 1);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto faces = layers_[axis].layer(1);
+    change_[axis].resize(faces.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kFaceGrain), [&](const auto& range) {
+      RowCursor at(velocity[axis]);
+      for (std::size_t n = range.begin(); n < range.end(); ++n) {
+        at.seek(faces[n]);
+        change_[axis][n] = continuation(axis, {at.i, at.j, at.k}, phi, solids, velocity);
+      }
+    });
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto faces = layers_[axis].layer(1);
+    for (std::size_t n = 0; n < faces.size(); ++n) velocity[axis].data()[faces[n]] += change_[axis][n];
   }
   fillGhostLayers(velocity);
 }

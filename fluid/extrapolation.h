@@ -21,12 +21,22 @@ class VelocityExtrapolator {
   /// walls: follow with constrainToSolids.
   void apply(const DenseField<float>& phi, const SolidBoundary& solids, int layers, MacVelocity& velocity);
 
+  /// Lets a velocity that `apply` has continued go on without divergence in the first cell of air, as far as
+  /// the flow inside agrees. A surface lies between faces: carried by a velocity that is constant beyond the
+  /// known faces it lags by up to half a cell's change of it, which makes waves 0.6 % too slow at 64 cells a
+  /// half length. Only for what carries the surface: velocities carried by it blow up where gaps close.
+  void goOn(const DenseField<float>& phi, const SolidBoundary& solids, MacVelocity& velocity);
+
  private:
   void markKnown(int axis, const DenseField<float>& phi, const SolidBoundary& solids);
+  float outflowShare(const Eigen::Vector3i& cell, const MacVelocity& velocity) const;
+  float continuation(int axis, const Eigen::Vector3i& face, const DenseField<float>& phi,
+                     const SolidBoundary& solids, const MacVelocity& velocity) const;
   void spread(int axis, int layer, const DenseField<float>& phi, DenseField<float>& component) const;
 
   GridSpec grid_;
   std::array<LayerList, 3> layers_;
+  std::array<std::vector<float>, 3> change_;  ///< to the faces of the first layer [m/s]
 };
 
 /// Gives closed faces (open = 0) the normal velocity of their solid and prescribed faces that of their

@@ -44,12 +44,13 @@ double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity) {
   return reduceSlabs(n.x(), 0.0, slab, maxOrNan);
 }
 
-MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double density,
-                            const Eigen::Vector3d& gravity) {
+MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance,
+                            double density, const Eigen::Vector3d& gravity) {
   MacVelocity velocity = state.velocity;
-  if (state.lead == 0) return velocity;
+  const double lead = std::min(state.lead, advance);
+  if (lead == 0) return velocity;
   for (int a = 0; a < 3; ++a) {
-    const double fall = state.lead * gravity[a], toSpeed = state.lead / density;
+    const double fall = lead * gravity[a], toSpeed = lead / density;
     const auto back = state.phi.stride(a);
     const Eigen::Vector3i& size = velocity[a].size();
     forEachRow(size, [&](int i, int j) {

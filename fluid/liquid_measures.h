@@ -13,9 +13,10 @@ namespace spume::fluid {
 double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity);
 
 /// The velocity of a state at its own time: what it leads by, times the acceleration g - grad p/rho of the
-/// last projection, is taken back on the open faces of liquid cells.
-MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double density,
-                            const Eigen::Vector3d& gravity);
+/// last projection, is taken back on the open faces of liquid cells; no further than the time `advance` [s]
+/// that acceleration acted, because that of an impact says nothing of the time before.
+MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance,
+                            double density, const Eigen::Vector3d& gravity);
 
 struct LiquidEnergy {
   double kinetic = 0, potential = 0;  ///< [J]; potential is -rho g . x, so 0 at the world's origin

@@ -118,10 +118,12 @@ void LiquidStages::moveSolids(double dt) {
 
 void LiquidStages::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
-  levelSetAdvection.advance(params.levelSetTransport, state.velocity, dt, state.phi);
-  admitAir(state.grid, solids, state.velocity, dt, state.phi);
-  advectMarkers(markerScene(), state.velocity, dt, state.positive);
-  advectMarkers(markerScene(), state.velocity, dt, state.negative);
+  surfaceVelocity = state.velocity;
+  extrapolator.goOn(state.phi, solids, surfaceVelocity);
+  levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi);
+  admitAir(state.grid, solids, surfaceVelocity, dt, state.phi);
+  advectMarkers(markerScene(), surfaceVelocity, dt, state.positive);
+  advectMarkers(markerScene(), surfaceVelocity, dt, state.negative);
   report.drained += outflows.empty(state.time + dt, solids, state.phi, state.negative, volumeControl);
   extension.apply(state.phi);
   sorter.compact(state.positive);
@@ -274,15 +276,16 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   state.volume.pocketGas = pocketBooks.gas();
   state.time += dt;
   state.lead += advance - dt;
+  lastAdvance = advance;
   ++state.subSteps;
   ++report.subSteps;
 }
 
 void LiquidStages::measure(LiquidStepReport& report) {
   computeLiquidFraction(state.phi, solids, static_cast<float>(state.grid.dx), fraction);
-  const LiquidEnergy energy =
-      liquidEnergy(state.grid, fraction, presentVelocity(state, solids, params.density, params.gravity),
-                   params.density, params.gravity);
+  const LiquidEnergy energy = liquidEnergy(
+      state.grid, fraction, presentVelocity(state, solids, lastAdvance, params.density, params.gravity),
+      params.density, params.gravity);
   const LiquidEnergy flying = energyOf(state.drops, params.density, params.gravity);
   report.kineticEnergy = energy.kinetic + flying.kinetic;
   report.potentialEnergy = energy.potential + flying.potential;

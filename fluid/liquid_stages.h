@@ -57,6 +57,7 @@ struct LiquidStages {
   VolumeControl volumeControl;
   Viscosity viscosity;
   Projection projection;
+  MacVelocity surfaceVelocity;  // carries the surface and its markers
   DenseField<float> source, fraction;
   DenseField<std::int32_t> cellMark;
 
@@ -65,6 +66,7 @@ struct LiquidStages {
   std::vector<CollapsedPocket> collapsed;
   std::size_t escapedBefore = 0, collapsedBefore = 0;
   double maxSpeed = 0;
+  double lastAdvance = 0;      ///< time that the velocity advanced in the last sub-step [s]
   bool pocketsFilled = false;  // after they were found in this sub-step
 
   MarkerScene markerScene() const { return {state.grid, params, setup.walls, solids}; }

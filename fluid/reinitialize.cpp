@@ -30,6 +30,9 @@ constexpr float kMiss = 0.02f;
 /// cell may hear of its nearest point's neighbour only. Beside a kink half of it.
 constexpr float kPatch = 1.5f;
 constexpr float kKinkPatch = 0.75f;
+/// A cell beside the surface whose value is a distance to within this keeps it [cells]: made a distance again
+/// and again the interpolant's error would creep, for a sphere of radius 3 by 0.07 % of its volume each time.
+constexpr float kSameDistance = 3e-3f;
 /// Cells of a layer handled by one task at least.
 constexpr std::size_t kCellGrain = 256;
 
@@ -275,7 +278,7 @@ void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
 }
 
 void Reinitializer::measure(DenseField<float>& phi) const {
-  const float dx = static_cast<float>(grid_.dx);
+  const float dx = static_cast<float>(grid_.dx), same = kSameDistance * dx;
   const float band = kLevelSetBand;
   forEachRow(grid_.cells, [&](int i, int j) {
     const std::int32_t* seedOf = &seedOf_(i, j, 0);
@@ -288,6 +291,7 @@ void Reinitializer::measure(DenseField<float>& phi) const {
         const Seed& s = seeds_[seedOf[k]];
         distance = std::min(patchDistance(s, i - s.x, j - s.y, k - s.z), band);
       }
+      if (mark[k] == 0 && std::abs(std::abs(p[k]) - dx * distance) < same) continue;
       p[k] = p[k] < 0 ? -dx * distance : dx * distance;
     }
   });

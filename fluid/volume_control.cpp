@@ -66,6 +66,7 @@ void VolumeControl::resume(const LiquidBodies& bodies, VolumeLedger ledger) {
                            " bodies for a liquid of " + std::to_string(bodies.bodies.size()) +
                            ": it belongs to another state");
   ledger_ = std::move(ledger);
+  ledger_.loss.resize(bodies.bodies.size(), 0);
   gas_.assign(bodies.bodies.size(), 0);
   lastLabel_ = bodies.label;
   lastBodies_ = bodies.bodies;
@@ -217,8 +218,10 @@ void VolumeControl::update(const LiquidBodies& bodies, const MacVelocity& veloci
     const bool hasHeir = node >= 0 && sums_[group(node)].bodies > 0;
     (hasHeir ? sums_[group(node)].target : homeless) += target;
   };
-  for (std::size_t n = 0; n < lastBodies_.size(); ++n)
+  for (std::size_t n = 0; n < lastBodies_.size(); ++n) {
     give(static_cast<std::int32_t>(now + n), ledger_.target[n]);
+    sums_[group(static_cast<std::int32_t>(now + n))].loss += ledger_.loss[n];
+  }
   for (const PouredVolume& pour : poured) give(bodies.label(pour.cell), pour.volume);
   const std::int32_t heir = largest(bodies.bodies);
   if (heir >= 0) give(heir, std::exchange(homeless, 0));
@@ -229,31 +232,42 @@ void VolumeControl::update(const LiquidBodies& bodies, const MacVelocity& veloci
 }
 
 /// Within a group every body gets its own liquid and a share of the group's error in proportion to its
-/// volume.
+/// volume; of the group's loss, too.
 void VolumeControl::dealTargets(const LiquidBodies& bodies) {
   ledger_.target.resize(bodies.bodies.size());
+  ledger_.loss.resize(bodies.bodies.size());
   for (std::size_t n = 0; n < bodies.bodies.size(); ++n) {
     const GroupSum& sum = sums_[group(static_cast<std::int32_t>(n))];
     const LiquidBody& body = bodies.bodies[n];
     const double share = sum.volume > 0 ? body.volume / sum.volume : body.room / sum.room;
     ledger_.target[n] =
         sum.bodies == 1 ? sum.target : body.volume - gas_[n] + share * (sum.target - sum.liquid);
+    ledger_.loss[n] = sum.bodies == 1 ? sum.loss : share * sum.loss;
   }
 }
 
+/// Divergence [1/s] that body n is given; its loss learns from the error. With x = 1 - e^(-dt/tau) of the
+/// error acted on per sub-step, x^2/4 of it to learn from makes both fade alike, without ringing.
+double VolumeControl::rateOf(const LiquidBody& body, std::size_t n, double dt) {
+  double& loss = ledger_.loss[n];
+  if (!body.touchesAir) return loss = 0;
+  const double share = -std::expm1(-dt / relaxationTime_), limit = kLargestError * body.room;
+  const double deadband = kVolumeDeadband * body.volume;
+  const double error = ledger_.target[n] + gas_[n] - body.volume;
+  const bool still = std::abs(error) <= deadband;
+  const double acted = still ? 0 : std::clamp(error, -limit, limit);
+  const double created =
+      share * acted + dt * std::clamp(loss, -limit / relaxationTime_, limit / relaxationTime_);
+  if (!still && acted == error) loss += 0.25 * share * share * error / dt;
+  if (still && std::abs(loss) * relaxationTime_ <= deadband) loss = 0;
+  return created / (body.room * dt);
+}
+
 void VolumeControl::addSource(const LiquidBodies& bodies, const SolidBoundary& boundary, double dt,
-                              DenseField<float>& divergenceSource) const {
+                              DenseField<float>& divergenceSource) {
   std::vector<float> rate(bodies.bodies.size(), 0);
-  const double relax = -std::expm1(-dt / relaxationTime_) / dt;
-  bool any = false;
-  for (std::size_t n = 0; n < rate.size(); ++n) {
-    const LiquidBody& body = bodies.bodies[n];
-    const double error = ledger_.target[n] + gas_[n] - body.volume;
-    if (!body.touchesAir || std::abs(error) <= kVolumeDeadband * body.volume) continue;
-    rate[n] = static_cast<float>(relax * std::clamp(error / body.room, -kLargestError, kLargestError));
-    any = true;
-  }
-  if (!any) return;
+  for (std::size_t n = 0; n < rate.size(); ++n) rate[n] = static_cast<float>(rateOf(bodies.bodies[n], n, dt));
+  if (std::all_of(rate.begin(), rate.end(), [](float r) { return r == 0; })) return;
   forEachCell(grid_.cells, [&](int i, int j, int k) {
     const std::int32_t n = bodies.label(i, j, k);
     if (n >= 0) divergenceSource(i, j, k) += rate[n] * boundary.cellFraction(i, j, k);

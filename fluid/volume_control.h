@@ -52,9 +52,11 @@ class VolumeControl {
               const std::vector<PouredVolume>& poured, const ImmersedGas& gas);
 
   /// Adds to `divergenceSource` [1/s] the rate that removes each body's error with the relaxation time of the
-  /// params. Zero for a body whose error is below kVolumeDeadband.
+  /// params and makes up for the loss learnt from earlier errors, a proportional-integral controller with
+  /// critical damping [Kim et al. 2007]; learns from this one. Zero for a body at rest within
+  /// kVolumeDeadband.
   void addSource(const LiquidBodies& bodies, const SolidBoundary& boundary, double dt,
-                 DenseField<float>& divergenceSource) const;
+                 DenseField<float>& divergenceSource);
 
   const VolumeLedger& ledger() const { return ledger_; }
   /// Volume the grid liquid should have now: the ledger's total and the immersed gas [m^3].
@@ -64,11 +66,13 @@ class VolumeControl {
   struct GroupSum {
     int bodies = 0;
     double target = 0, liquid = 0, volume = 0, room = 0;  // [m^3]; liquid = volume less gas
+    double loss = 0;                                      // [m^3/s]
   };
   void traceBack(const LiquidBodies& bodies, const MacVelocity& velocity, double dt);
   void findGroups(const LiquidBodies& bodies);
   void bookGas(const LiquidBodies& bodies, const ImmersedGas& gas);
   void dealTargets(const LiquidBodies& bodies);
+  double rateOf(const LiquidBody& body, std::size_t n, double dt);
   /// Subtracts up to `volume` [m^3] from the target of a body, of the unassigned liquid if it is negative;
   /// returns it.
   double take(std::int32_t body, double volume);

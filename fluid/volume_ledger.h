@@ -9,7 +9,8 @@ namespace spume::fluid {
 struct VolumeLedger {
   std::vector<double>
       target;  ///< liquid each body should hold, in the order of LiquidBodies, without bubble gas [m^3]
-  double unassigned = 0;          ///< target of bodies that vanished while no other was left [m^3]
+  std::vector<double> loss;  ///< what each body loses to the level set's errors, as far as learnt [m^3/s]
+  double unassigned = 0;     ///< target of bodies that vanished while no other was left [m^3]
   std::vector<double> pocketGas;  ///< gas each closed pocket should hold, in the order of AirPockets [m^3]
 
   /// Initial + poured - drained - drops in flight [m^3].

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "apps/reproduce/liquid_studies.h"
@@ -72,6 +73,34 @@ std::vector<ResultRow> transport(const fluid::TransportCase& scene, const Asked&
 Study transportStudy(const std::string& key, const fluid::TransportCase& scene, const Asked& asked,
                      double cost, int markers = 16) {
   return {key, scene.name, cost, [=](const StudyContext&) { return transport(scene, asked, markers); }};
+}
+
+/// One choice of transport on the Enright deformation: its shape error, beside what it costs and loses.
+ResultRow choice(int cells, fluid::LevelSetTransport scheme, double cfl, int markers) {
+  fluid::TransportOptions options = optionsFor({.cells = cells, .cfl = cfl, .scheme = scheme},
+                                               markers > 0 ? markers : fluid::FluidParams{}.markersPerCell);
+  options.markers = markers > 0;
+  const fluid::TransportResult result = fluid::runTransport(fluid::enrightDeformation(), options);
+  char text[128];
+  std::snprintf(text, sizeof text, "%d^3, %s, CFL %.2g, %d markers a cell", cells,
+                scheme == fluid::LevelSetTransport::weno5 ? "WENO5" : "semi-Lagrangian", cfl, markers);
+  ResultRow r = row(text, "shape error E1", "", "");
+  std::snprintf(text, sizeof text, "volume %+.2f %%, %d steps of %.1f ms", 100 * result.volumeChange,
+                result.steps, 1e3 * result.seconds / result.steps);
+  r.note = text;
+  return reportOnly(r, result.shapeError, "L^3");
+}
+
+/// What each choice of transport costs and gives: for who trades accuracy for speed.
+std::vector<ResultRow> transportChoices(const StudyContext&) {
+  using enum fluid::LevelSetTransport;
+  std::vector<ResultRow> rows;
+  for (const int cells : {32, 64}) {
+    for (const int markers : {0, 8, 16, 32, 64}) rows.push_back(choice(cells, semiLagrangian, 4.9, markers));
+    for (const int markers : {0, 16, 64}) rows.push_back(choice(cells, semiLagrangian, 0.5, markers));
+    for (const int markers : {0, 16, 64}) rows.push_back(choice(cells, weno5, 0.5, markers));
+  }
+  return rows;
 }
 
 /// Sphere carried across the box and back along a skew line; 5 crossings.
@@ -195,6 +224,7 @@ std::vector<Study> transportStudies() {
                           .shapeReference = "1.3 times L4 at a fifth of its time",
                           .scheme = fluid::LevelSetTransport::semiLagrangian},
                          20),
+          {"L45", "enright deformation, choices of transport", 150, transportChoices},
           {"L8", "sub-cell translation", 20, subCellTranslation},
           {"L9", "signed distance", 10, signedDistance},
           {"L10", "enright deformation", 40, escapedBudget}};

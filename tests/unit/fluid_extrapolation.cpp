@@ -44,6 +44,50 @@ TEST(VelocityExtrapolator, IsConstantAlongTheNormalOfAFlatSurface) {
   }
 }
 
+void continued(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& solids,
+               MacVelocity& u) {
+  VelocityExtrapolator extrapolator(grid);
+  extrapolator.apply(phi, solids, 5, u);
+  extrapolator.goOn(phi, solids, u);
+}
+
+/// Flow towards a wall below the surface: u = (-x, y, 0) has no divergence and grows towards the surface.
+Eigen::Vector3d spreading(const Eigen::Vector3d& x) { return {-x.x(), x.y(), 0}; }
+
+TEST(VelocityExtrapolator, GoesOnWithoutDivergenceInTheFirstCellOfAir) {
+  const GridSpec grid = unitCube(24);
+  const SolidBoundary solids = buildSolidBoundary(grid, openWalls(), {}, 0);
+  const DenseField<float> phi = levelSet(grid, [](const auto& x) { return x.y() - 0.51; });
+  MacVelocity u = macField(grid, spreading);
+  continued(grid, phi, solids, u);
+  // Cells below 12 are wet; the face under cell 12 is known, the one above it is not.
+  EXPECT_NEAR(u[1](9, 13, 14), grid.faceCentre(1, 9, 13, 14).y(), 1e-5);
+}
+
+TEST(VelocityExtrapolator, GoesNoFurtherThanTheFlowInsideChanges) {
+  const GridSpec grid = unitCube(24);
+  const SolidBoundary solids = buildSolidBoundary(grid, openWalls(), {}, 0);
+  const DenseField<float> phi = levelSet(grid, [](const auto& x) { return x.y() - 0.51; });
+  MacVelocity u = macField(grid, [](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(-x.x(), 0.25 * x.y(), 0);  // asks for four times the change inside
+  });
+  continued(grid, phi, solids, u);
+  EXPECT_NEAR(u[1](9, 13, 14), 0.25 * grid.faceCentre(1, 9, 13, 14).y(), 1e-5);
+}
+
+TEST(VelocityExtrapolator, LeavesAGapThatClosesAlone) {
+  const GridSpec grid = unitCube(24);
+  const SolidBoundary solids = buildSolidBoundary(grid, openWalls(), {}, 0);
+  const DenseField<float> phi =  // two cells of air, 12 and 13, between bodies that meet
+      levelSet(grid, [](const auto& x) { return 1.0 / 24 - std::abs(x.y() - 13.0 / 24); });
+  MacVelocity u = macField(grid, [](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(-x.x(), x.y() < 13.0 / 24 ? x.y() : 1 - x.y(), 0);
+  });
+  const float below = u[1](9, 12, 14), above = u[1](9, 14, 14);
+  continued(grid, phi, solids, u);
+  EXPECT_NEAR(u[1](9, 13, 14), 0.5f * (below + above), 1e-5);
+}
+
 TEST(VelocityExtrapolator, RespectsMirrorSymmetry) {
   const GridSpec grid = unitCube(20);
   const SolidBoundary solids = buildSolidBoundary(grid, openWalls(), {}, 0);
