@@ -61,11 +61,15 @@ void correctVolumes(const FoamParams& params, const FoamTopology& topology, doub
 
 void projectVolumes(const FoamParams& params, const FoamTopology& topology, BubbleStore& bubbles) {
   std::vector<double> missing(bubbles.size(), 0.0), change;
-  for (std::size_t i = 0; i < missing.size(); ++i)
-    if (hasCell(topology, i)) missing[i] = bubbles.gas[i] - topology.volume[i];
-  solveWeightChanges(topology, bubbles.radius, missing, kNewtonTolerance, change);
+  std::vector<char> atLimit(bubbles.size(), 0);
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (!hasCell(topology, i)) continue;
+    missing[i] = bubbles.gas[i] - topology.volume[i];
+    atLimit[i] = bubbles.clamped[i] && missing[i] > 0;
+  }
+  solveWeightChanges(topology, bubbles.radius, missing, atLimit, kNewtonTolerance, change);
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (!hasCell(topology, i) || atLimit[i]) continue;
     const double r = bubbles.radius[i], most = 1 + kLargestChange;
     setRadius(params, i, std::clamp(std::sqrt(std::max(r * r + change[i], 0.0)), r / most, r * most),
               bubbles);

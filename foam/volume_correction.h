@@ -29,9 +29,10 @@ void noteVolumes(const FoamTopology& topology, BubbleStore& bubbles);
 double worstVolumeError(const BubbleStore& bubbles);
 
 /// One Newton step of all radii together, by the derivatives of the volumes: what one cell gains its
-/// neighbours do not lose. r <= limit r0; flags the clamped. Converges in a few steps, each after measuring
-/// anew. Deviation: [Busaryev 2012, 5.2] lets the volumes of moving bubbles lag; held in full they make a
-/// foam stiffer, which forces/volume_response brings into the implicit step.
+/// neighbours do not lose. r <= limit r0; flags the clamped, which stay as they are while they lack gas, so
+/// that their neighbours come to hold theirs. Converges in a few steps, each after measuring anew. Deviation:
+/// [Busaryev 2012, 5.2] lets the volumes of moving bubbles lag; held in full they make a foam stiffer, which
+/// forces/volume_response brings into the implicit step.
 void projectVolumes(const FoamParams& params, const FoamTopology& topology, BubbleStore& bubbles);
 
 }  // namespace spume::foam

@@ -21,13 +21,17 @@ double dot(const Column& a, const Column& b) {
 /// The derivatives of the volumes by the weights, film by film.
 class VolumeDerivatives {
  public:
-  VolumeDerivatives(const FoamTopology& topology, const Column& radius)
+  VolumeDerivatives(const FoamTopology& topology, const Column& radius, const std::vector<char>& fixed)
       : films_(topology.films), coupling_(films_.size()), diagonal_(radius.size()) {
     for (std::size_t i = 0; i < radius.size(); ++i) diagonal_[i] = topology.freeArea[i] / (2 * radius[i]);
     for (std::size_t f = 0; f < films_.size(); ++f) {
       coupling_[f] = films_[f].area / (2 * films_[f].distance);
       diagonal_[films_[f].i] += coupling_[f], diagonal_[films_[f].j] += coupling_[f];
     }
+    for (std::size_t i = 0; i < radius.size(); ++i)
+      if (fixed[i]) diagonal_[i] = 0;
+    for (std::size_t f = 0; f < films_.size(); ++f)
+      if (fixed[films_[f].i] || fixed[films_[f].j]) coupling_[f] = 0;
   }
 
   void apply(const Column& x, Column& out) const {
@@ -51,9 +55,10 @@ class VolumeDerivatives {
 }  // namespace
 
 void solveWeightChanges(const FoamTopology& topology, const std::vector<double>& radius,
-                        const std::vector<double>& wanted, double tolerance, std::vector<double>& change) {
+                        const std::vector<double>& wanted, const std::vector<char>& fixed, double tolerance,
+                        std::vector<double>& change) {
   const std::size_t n = radius.size();
-  const VolumeDerivatives matrix(topology, radius);
+  const VolumeDerivatives matrix(topology, radius, fixed);
   Column residual = wanted, direction(n), step(n), scaled(n);
   change.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i)
