@@ -328,5 +328,6 @@ const fluid::LiquidState& Simulation::liquid() const { return internals_->liquid
 const fluid::SolidBoundary& Simulation::solids() const { return internals_->liquid->solids(); }
 const foam::BubbleStore& Simulation::bubbles() const { return internals_->bubbles; }
 const foam::FoamTopology& Simulation::topology() const { return internals_->foam.topology(); }
+const std::vector<std::uint64_t>& Simulation::topologyIds() const { return internals_->foam.topologyIds(); }
 
 }  // namespace spume::coupling

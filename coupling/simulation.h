@@ -77,7 +77,8 @@ class Simulation {
   const fluid::LiquidState& liquid() const;
   const fluid::SolidBoundary& solids() const;
   const foam::BubbleStore& bubbles() const;
-  const foam::FoamTopology& topology() const;
+  const foam::FoamTopology& topology() const;  ///< row k is the bubble topologyIds()[k]
+  const std::vector<std::uint64_t>& topologyIds() const;
   SimulationState state() const;
 
  private:

@@ -18,15 +18,13 @@ struct CouplingBlock {
 
 /// Symmetric positive definite matrix of the implicit step, 3 x 3 blocks on the graph of pairs:
 /// (A v)_i = own_i v_i + sum_j block_ij (v_i - v_j). Written with differences, so a rigid motion costs no
-/// cancellation.
+/// cancellation. Solvers work from neighbour to neighbour: rows are best numbered along a curve through
+/// space.
 struct BlockSystem {
   std::vector<Eigen::Matrix3d> own;  ///< [kg]
   std::vector<std::int32_t> start;   ///< n + 1; couplings of bubble i
   std::vector<std::int32_t> other;
   std::vector<CouplingBlock> block;
-  /// The rows along a curve through space, for solvers that work from neighbour to neighbour; empty: as they
-  /// come.
-  std::vector<std::int32_t> order;
 
   std::size_t size() const { return own.size(); }
   Eigen::Vector3d row(std::size_t i, const Vectors3& v) const {

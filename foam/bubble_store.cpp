@@ -5,18 +5,19 @@
 #include <numbers>
 
 #include "foam/errors.h"
+#include "foam/parallel.h"
 
 namespace spume::foam {
 
 namespace {
 
-/// Applies `action` to every column, so that adding and removing cannot forget one.
-template <typename Store, typename Action>
-void forEachColumn(Store& store, const Action& action) {
-  action(store.id), action(store.position), action(store.velocity), action(store.radius), action(store.gas);
-  action(store.age), action(store.exposure), action(store.volume), action(store.wetness);
-  action(store.surfaceWeight), action(store.type), action(store.hidden), action(store.clamped);
-  action(store.touchedSolid);
+/// Applies `action` to every column of each store, so that adding and removing cannot forget one.
+template <typename Action, typename... Stores>
+void forEachColumn(const Action& action, Stores&... stores) {
+  action(stores.id...), action(stores.position...), action(stores.velocity...), action(stores.radius...);
+  action(stores.gas...), action(stores.age...), action(stores.exposure...), action(stores.volume...);
+  action(stores.wetness...), action(stores.surfaceWeight...), action(stores.type...);
+  action(stores.hidden...), action(stores.clamped...), action(stores.touchedSolid...);
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ std::uint64_t BubbleStore::add(const NewBubble& bubble) {
       !bubble.velocity.allFinite())
     throw InvalidParameter("bubble " + std::to_string(nextId) + ": radius " + std::to_string(bubble.radius) +
                            " m; it must be positive and, like position and velocity, finite");
-  forEachColumn(*this, [](auto& column) { column.emplace_back(); });
+  forEachColumn([](auto& column) { column.emplace_back(); }, *this);
   id.back() = nextId;
   position.back() = bubble.position;
   velocity.back() = bubble.velocity;
@@ -43,12 +44,22 @@ void BubbleStore::remove(const std::vector<std::uint8_t>& flags) {
   if (flags.size() != size())
     throw InvalidParameter("BubbleStore::remove: " + std::to_string(flags.size()) + " flags for " +
                            std::to_string(size()) + " bubbles; give one flag per bubble");
-  forEachColumn(*this, [&flags](auto& column) {
+  const auto removeFrom = [&flags](auto& column) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < flags.size(); ++i)
       if (!flags[i]) column[kept++] = column[i];
     column.resize(kept);
-  });
+  };
+  forEachColumn(removeFrom, *this);
+}
+
+void BubbleStore::gather(const BubbleStore& from, const std::vector<std::int32_t>& rows) {
+  const auto gatherInto = [&rows](auto& column, const auto& source) {
+    column.resize(rows.size());
+    forEachIndex(rows.size(), [&](std::size_t k) { column[k] = source[rows[k]]; });
+  };
+  forEachColumn(gatherInto, *this, from);
+  nextId = from.nextId;
 }
 
 std::ptrdiff_t BubbleStore::find(std::uint64_t wanted) const {

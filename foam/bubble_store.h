@@ -42,6 +42,8 @@ struct BubbleStore {
   std::uint64_t add(const NewBubble& bubble);
   /// Removes the bubbles whose flag is non-zero (one flag per bubble); keeps the order of the rest.
   void remove(const std::vector<std::uint8_t>& flags);
+  /// Becomes those rows of `from`, in that order; `from` is another store.
+  void gather(const BubbleStore& from, const std::vector<std::int32_t>& rows);
   /// Index of `wanted`, or -1.
   std::ptrdiff_t find(std::uint64_t wanted) const;
 

@@ -14,6 +14,7 @@
 #include "foam/near_walls.h"
 #include "foam/neighbours.h"
 #include "foam/parallel.h"
+#include "foam/space_order.h"
 #include "foam/surroundings.h"
 #include "foam/volume_correction.h"
 #include "foam/wall_cells.h"
@@ -25,6 +26,10 @@ namespace {
 /// Most times the volumes are corrected at the end of a step of `newton`: errors of 10 % are 1e-8 after
 /// three.
 constexpr int kVolumePasses = 5;
+
+/// Share of the pairs that may move faster than the step resolves: bubbles that rise into a pile. Contacts
+/// are implicit and stop them within a step of any length; a froth that moves as a whole is more than these.
+constexpr double kArrivals = 0.05;
 
 /// Notes the wall time of each stage as it ends; a name that comes again adds to its first.
 class StageClock {
@@ -82,15 +87,33 @@ struct FoamSolver::Internals {
   Attraction attraction;
   Vectors3 pull;
   Eigen::VectorXd phiEnd, psiEnd;
-  BubbleStore next;  ///< the bubbles while they change: the caller's stay whole until the end
+  /// The bubbles while they change, in space order: what is near in the foam is near in memory. The caller's
+  /// stay whole until the end.
+  BubbleStore next;
+  std::vector<std::int32_t> order;  ///< the caller's row behind each row of `next`
+  std::vector<std::int32_t> rowOf;  ///< row of `next` of each of the caller's, -1 once its life has ended
 
+  void take(const BubbleStore& bubbles);
+  void giveBack(BubbleStore& bubbles);
   void measure(const LiquidSampler& liquid);
   void holdVolumes(const LiquidSampler& liquid);
   void relabelAtEnd(const LiquidSampler& liquid);
   void endLivesAndReport(double dt, FoamStepReport& report);
-  void summarise(FoamStepReport& report) const;
+  void summarise(const BubbleStore& bubbles, FoamStepReport& report) const;
   void reportClassChanges(const BubbleStore& before, FoamStepReport& report) const;
 };
+
+void FoamSolver::Internals::take(const BubbleStore& bubbles) {
+  sortInSpace(bubbles.position, order);
+  next.gather(bubbles, order);
+  rowOf.resize(order.size());
+  forEachIndex(order.size(), [&](std::size_t k) { rowOf[order[k]] = static_cast<std::int32_t>(k); });
+}
+
+void FoamSolver::Internals::giveBack(BubbleStore& bubbles) {
+  std::erase(rowOf, -1);
+  bubbles.gather(next, rowOf);
+}
 
 void FoamSolver::Internals::measure(const LiquidSampler& liquid) {
   if (isAnyCutByWall(next, around.psi))
@@ -122,21 +145,19 @@ void FoamSolver::Internals::relabelAtEnd(const LiquidSampler& liquid) {
 }
 
 void FoamSolver::Internals::reportClassChanges(const BubbleStore& before, FoamStepReport& report) const {
-  for (std::size_t i = 0; i < next.size(); ++i)
-    if (next.type[i] != before.type[i])
+  for (std::size_t row = 0; row < rowOf.size(); ++row)
+    if (const std::int32_t i = rowOf[row]; next.type[i] != before.type[row])
       report.events.push_back({FoamEventKind::classChange, next.id[i], 0, next.position[i], next.radius[i],
-                               next.gas[i], next.age[i], before.type[i], next.type[i]});
+                               next.gas[i], next.age[i], before.type[row], next.type[i]});
 }
 
 void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report) {
   const auto supported = supportedBubbles(topology, psiEnd, next);
   const auto ended = endLives(params, topology, supported, psiEnd, dt, next);
-  if (ended.empty()) return;
-  std::vector<std::uint8_t> gone(next.size(), 0);
   for (const EndedLife& life : ended) {
     const std::size_t i = life.index;
     const bool merges = life.heir >= 0;
-    gone[i] = 1;
+    rowOf[order[i]] = -1;
     report.events.push_back({merges ? FoamEventKind::merge : FoamEventKind::burst, next.id[i],
                              merges ? next.id[life.heir] : 0, next.position[i], next.radius[i], next.gas[i],
                              life.age, next.type[i], next.type[i], !supported[i]});
@@ -145,22 +166,22 @@ void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report)
     else
       report.gasBurst += next.gas[i];
   }
-  next.remove(gone);
 }
 
-void FoamSolver::Internals::summarise(FoamStepReport& report) const {
-  const std::size_t n = next.size();
+void FoamSolver::Internals::summarise(const BubbleStore& bubbles, FoamStepReport& report) const {
+  const std::size_t n = bubbles.size();
   report.bubbles = n;
   report.contacts = topology.films.size(), report.overlaps = topology.overlaps.size();
   std::vector<double> error;
   for (std::size_t i = 0; i < n; ++i) {
-    report.liquid += next.type[i] == BubbleClass::liquid,
-        report.surface += next.type[i] == BubbleClass::surface;
-    report.air += next.type[i] == BubbleClass::air;
-    report.hidden += next.hidden[i], report.clamped += next.clamped[i];
-    report.gas += next.gas[i];
-    report.maxSpeed = std::max(report.maxSpeed, next.velocity[i].norm());
-    if (!next.hidden[i] && !next.clamped[i]) error.push_back(std::abs(next.volume[i] / next.gas[i] - 1));
+    report.liquid += bubbles.type[i] == BubbleClass::liquid;
+    report.surface += bubbles.type[i] == BubbleClass::surface;
+    report.air += bubbles.type[i] == BubbleClass::air;
+    report.hidden += bubbles.hidden[i], report.clamped += bubbles.clamped[i];
+    report.gas += bubbles.gas[i];
+    report.maxSpeed = std::max(report.maxSpeed, bubbles.velocity[i].norm());
+    if (!bubbles.hidden[i] && !bubbles.clamped[i])
+      error.push_back(std::abs(bubbles.volume[i] / bubbles.gas[i] - 1));
   }
   if (error.empty()) return;
   const auto middle = error.begin() + static_cast<std::ptrdiff_t>(error.size() / 2);
@@ -172,6 +193,7 @@ void FoamSolver::Internals::summarise(FoamStepReport& report) const {
 FoamSolver::FoamSolver(FoamParams params) : internals_(std::make_unique<Internals>(std::move(params))) {}
 FoamSolver::~FoamSolver() = default;
 const FoamTopology& FoamSolver::topology() const { return internals_->topology; }
+const std::vector<std::uint64_t>& FoamSolver::topologyIds() const { return internals_->topologyId; }
 const FoamParams& FoamSolver::params() const { return internals_->params; }
 
 FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liquid, double dt) {
@@ -179,7 +201,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   FoamStepReport report;
   StageClock clock(report.stages);
   Internals& s = *internals_;
-  s.next = bubbles;
+  s.take(bubbles);
   s.around.sample(liquid, s.next.positions());
   clock.end("sample");
   s.measure(liquid);
@@ -208,8 +230,8 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("events");
   report.solverIterations = solve.iterations, report.solverResidual = solve.residual;
   report.solverFellBack = solve.fellBack;
-  s.summarise(report);
-  std::swap(bubbles, s.next);
+  s.giveBack(bubbles);
+  s.summarise(bubbles, report);
   return report;
 }
 
@@ -217,16 +239,19 @@ double FoamSolver::stableDt(const BubbleStore& bubbles) const {
   const Internals& s = *internals_;
   std::vector<std::ptrdiff_t> row(s.topologyId.size());
   for (std::size_t k = 0; k < row.size(); ++k) row[k] = bubbles.find(s.topologyId[k]);
-  const auto pairDt = [&](std::size_t p) {
-    const OverlapPair& pair = s.topology.overlaps[p];
-    const std::ptrdiff_t i = row[pair.i], j = row[pair.j];
-    if (i < 0 || j < 0) return std::numeric_limits<double>::max();
+  constexpr double kAny = std::numeric_limits<double>::max();
+  std::vector<double> allowed(s.topology.overlaps.size(), kAny);
+  forEachIndex(allowed.size(), [&](std::size_t p) {
+    const std::ptrdiff_t i = row[s.topology.overlaps[p].i], j = row[s.topology.overlaps[p].j];
+    if (i < 0 || j < 0) return;
     const double motion = (bubbles.velocity[i] - bubbles.velocity[j]).norm();
-    const double allowed = 0.5 * std::min(bubbles.radius[i], bubbles.radius[j]);
-    return motion > 0 ? allowed / motion : std::numeric_limits<double>::max();
-  };
-  return reduceIndices(s.topology.overlaps.size(), std::numeric_limits<double>::max(), pairDt,
-                       [](double a, double b) { return std::min(a, b); });
+    if (motion > 0) allowed[p] = 0.5 * std::min(bubbles.radius[i], bubbles.radius[j]) / motion;
+  });
+  if (allowed.empty()) return kAny;
+  const auto decides =
+      allowed.begin() + static_cast<std::ptrdiff_t>(kArrivals * static_cast<double>(allowed.size()));
+  std::nth_element(allowed.begin(), decides, allowed.end());
+  return *decides;
 }
 
 }  // namespace spume::foam

@@ -60,12 +60,13 @@ class FoamSolver {
   /// call.
   FoamStepReport step(BubbleStore& bubbles, const LiquidSampler& liquid, double dt);
 
-  /// Largest dt [s] for which no pair of neighbours moves relative to each other by more than half the
-  /// smaller radius.
+  /// Largest dt [s] for which 95 of 100 pairs of neighbours move relative to each other by no more than half
+  /// the smaller radius. The few others are bubbles that rise into a pile, and what they run into stops them.
   double stableDt(const BubbleStore& bubbles) const;
 
-  /// Geometry after the last step, in the order of the store as it was then.
+  /// Geometry as last measured in the last step; row k is the bubble topologyIds()[k].
   const FoamTopology& topology() const;
+  const std::vector<std::uint64_t>& topologyIds() const;
   const FoamParams& params() const;
 
  private:

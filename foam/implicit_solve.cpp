@@ -58,10 +58,10 @@ SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, d
   report.converged = first <= goal;
   if (report.converged) return report;
   const bool iterative = solver_ != LinearSolver::cholmod;
-  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, x);
-  double norm = iterative ? residual(a, b, x) : first;
+  double norm = first;
+  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, norm, x);
   const auto reached = [&] {
-    return norm <= std::max(goal, std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b)));
+    return norm <= goal || norm <= std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b));
   };
   if (!reached()) {
     report.fellBack = solveDirectly(a, b, goal, x) && iterative;
@@ -73,14 +73,15 @@ SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, d
   return report;
 }
 
+/// Starts from the residual in residual_, of length `norm`, and leaves that it ends with there.
 int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                           Vectors3& x) {
-  if (!couplingsKnown_) swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky);
-  couplingsKnown_ = true;
-  swept_.copyDiagonals(a);
-  cholesky_.factor(swept_);
+                           double& norm, Vectors3& x) {
+  if (std::exchange(couplingsKnown_, true)) {
+    swept_.refresh(a), cholesky_.refresh(swept_);
+  } else {
+    swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky), cholesky_.factor(swept_);
+  }
   int iterations = 0;
-  double norm = residual(a, b, x);
   for (int pass = 0; pass < kRefinements && norm > goal && iterations < maxIterations; ++pass) {
     const double aim = std::max(kAim * goal, kSinglePrecision * norm);
     iterations += pcg_.improve(swept_, cholesky_, residual_, aim, maxIterations - iterations, x);

@@ -21,10 +21,10 @@ class ImplicitSolve {
  public:
   explicit ImplicitSolve(LinearSolver solver = LinearSolver::pcgIncompleteCholesky) : solver_(solver) {}
 
-  /// |b - A x| [kg m/s].
   /// What rounding alone leaves of the residual: a pinned bubble's block is a million times stiffer than the
   /// rest.
   static double roundOff(const BlockSystem& a, const Vectors3& x);
+  /// |b - A x| [kg m/s].
   double residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
 
   /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. An iteration that does not get there
@@ -37,7 +37,8 @@ class ImplicitSolve {
                          Vectors3& x);
 
  private:
-  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
+  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, double& norm,
+              Vectors3& x);
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
   void shiftRigidly(const BlockSystem& a, Vectors3& x);
 

@@ -17,6 +17,12 @@ struct IncompleteCholesky {
   std::vector<SymmetricBlock> excess;   ///< diagonal of A - 2 D [kg]
 
   void factor(const SweptSystem& a);
+  /// Takes on the diagonals that SweptSystem::refresh has changed, each by itself: D grows by what A has
+  /// grown. What that does to later rows is left out; D stays positive definite, as above.
+  void refresh(const SweptSystem& a);
+
+ private:
+  void setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d);
 };
 
 }  // namespace spume::foam

@@ -44,11 +44,12 @@ class Clusters {
 
 /// For every ending bubble that is enclosed, its neighbour with the largest film.
 std::vector<std::ptrdiff_t> largestFilmNeighbours(const FoamTopology& topology,
+                                                  const std::vector<std::uint64_t>& id,
                                                   const std::vector<std::uint8_t>& wanted) {
   std::vector<std::ptrdiff_t> heir(wanted.size(), -1);
   std::vector<double> area(wanted.size(), -1);
   const auto offer = [&](std::int32_t to, std::int32_t candidate, double film) {
-    if (!wanted[to] || film < area[to] || (film == area[to] && candidate > heir[to])) return;
+    if (!wanted[to] || film < area[to] || (film == area[to] && id[candidate] > id[heir[to]])) return;
     area[to] = film, heir[to] = candidate;
   };
   for (const Film& film : topology.films) offer(film.i, film.j, film.area), offer(film.j, film.i, film.area);
@@ -122,7 +123,12 @@ std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& to
     ended.push_back({i, age});
     enclosed[i] = !isOpen(topology, bubbles, i);
   }
-  if (!ended.empty()) settleHeirs(largestFilmNeighbours(topology, enclosed), enclosed, ended);
+  if (ended.empty()) return ended;
+  const auto byId = [&](const EndedLife& a, const EndedLife& b) {
+    return bubbles.id[a.index] < bubbles.id[b.index];
+  };
+  std::sort(ended.begin(), ended.end(), byId);
+  settleHeirs(largestFilmNeighbours(topology, bubbles.id, enclosed), enclosed, ended);
   return ended;
 }
 

@@ -32,7 +32,7 @@ struct EndedLife {
 double burstClockSpeed(const FoamParams& params, double psi, double radius);
 
 /// Advances the clocks by dt [s] (`age` always; `exposure` only while surface or air, slower near solids if
-/// asked) and returns the lives that end, ordered by index. `psi` = distances to the solids [m]. One with
+/// asked) and returns the lives that end, ordered by id. `psi` = distances to the solids [m]. One with
 /// free area bursts; one enclosed by others leaves its gas to the neighbour with the largest film (ties: the
 /// lower id), unless that one ends in this step too: then it waits for the next step. `supported` from
 /// supportedBubbles(): air clusters without support end within kUnsupportedLife.

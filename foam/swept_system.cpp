@@ -1,59 +1,74 @@
 #include "foam/swept_system.h"
 
-#include <array>
-#include <numeric>
+#include <algorithm>
 
 #include "foam/parallel.h"
 
 namespace spume::foam {
+namespace {
+
+std::int32_t padded(std::int32_t count) {
+  return (count + SweptSystem::kRun - 1) / SweptSystem::kRun * SweptSystem::kRun;
+}
+
+}  // namespace
 
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
-  order = a.order;
-  if (order.empty()) {
-    order.resize(n);
-    std::iota(order.begin(), order.end(), 0);
+  row.resize(n), diagonal.resize(n), own_.resize(n), changed.assign(n, 1);
+  const std::size_t groups =
+      std::max(kLeastGroups, (n + kAbreast * kBlockRows - 1) / (kAbreast * kBlockRows));
+  blockRows_ = std::max(kLeastRows, (n + kAbreast * groups - 1) / (kAbreast * groups));
+  forEachIndex(n, [&](std::size_t k) { row[k] = countRow(a, k, sweeps); });
+  std::int32_t entries = 0;
+  for (Row& r : row) {
+    for (std::int32_t* place : {&r.ahead, &r.behind, &r.beyond, &r.end}) *place += entries;
+    entries = r.end;
   }
-  rank_.resize(n), row.resize(n), diagonal.resize(n);
-  other.resize(a.other.size()), coupling.resize(a.other.size());
-  forEachIndex(n, [&](std::size_t k) { rank_[order[k]] = static_cast<std::int32_t>(k); });
-  std::int32_t entry = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    row[k].start = entry;
-    entry += a.start[order[k] + 1] - a.start[order[k]];
-    row[k].end = entry;
-  }
-  forEachIndex(n, [&](std::size_t k) { copyRow(a, k, sweeps); });
+  other.resize(entries), coupling.resize(entries);
+  forEachIndex(n, [&](std::size_t k) { copyRow(a, k, sweeps), sumDiagonal(a, k); });
 }
 
-/// Places the couplings by three visits, so that each kind stays in the order of the BlockSystem.
+SweptSystem::Kind SweptSystem::kindOf(std::size_t k, std::size_t other, bool sweeps) const {
+  if (!sweeps || other / blockRows_ != k / blockRows_) return Kind::beyond;
+  return other > k ? Kind::ahead : Kind::behind;
+}
+
+/// The places of a row that begins at 0.
+SweptSystem::Row SweptSystem::countRow(const BlockSystem& a, std::size_t k, bool sweeps) const {
+  std::int32_t count[3] = {};
+  for (std::int32_t e = a.start[k]; e < a.start[k + 1]; ++e)
+    ++count[static_cast<int>(kindOf(k, a.other[e], sweeps))];
+  const std::int32_t behind = padded(count[0]);
+  return {0, behind, behind + count[1], behind + padded(count[1] + count[2])};
+}
+
+/// Couplings of one kind stay in the order of the BlockSystem.
 void SweptSystem::copyRow(const BlockSystem& a, std::size_t k, bool sweeps) {
-  const std::int32_t i = order[k];
-  const auto kindOf = [&](std::int32_t t) {
-    const auto s = static_cast<std::size_t>(t);
-    if (!sweeps || s / kBlockRows != k / kBlockRows) return 2;
-    return s < k ? 0 : 1;
+  const auto nobody = static_cast<std::int32_t>(a.size());
+  std::int32_t place[3] = {row[k].ahead, row[k].behind, row[k].beyond};
+  for (std::int32_t e = a.start[k]; e < a.start[k + 1]; ++e) {
+    const Kind kind = kindOf(k, a.other[e], sweeps);
+    const std::int32_t to = place[static_cast<int>(kind)]++;
+    other[to] = a.other[e] + (kind == Kind::behind ? nobody + 1 : 0);
+    coupling[to] << a.block[e].along.cast<float>(), static_cast<float>(a.block[e].across);
+  }
+  const auto pad = [&](std::int32_t from, std::int32_t end) {
+    for (std::int32_t e = from; e < end; ++e) other[e] = nobody, coupling[e].setZero();
   };
-  std::array<std::int32_t, 3> place{};
-  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
-    const int kind = kindOf(rank_[a.other[e]]);
-    for (int later = kind + 1; later < 3; ++later) ++place[later];
-  }
-  for (std::int32_t& at : place) at += row[k].start;
-  row[k].after = place[1], row[k].beyond = place[2];
-  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
-    const std::int32_t t = rank_[a.other[e]], to = place[kindOf(t)]++;
-    const CouplingBlock& block = a.block[e];
-    other[to] = t;
-    coupling[to] << block.along.cast<float>(), static_cast<float>(block.across);
-  }
+  pad(place[0], row[k].behind), pad(place[2], row[k].end);
 }
 
-void SweptSystem::copyDiagonals(const BlockSystem& a) {
+void SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) {
+  Eigen::Matrix3d sum = own_[k] = a.own[k];
+  for (std::int32_t e = row[k].ahead; e < row[k].end; ++e) sum += matrixOf(coupling[e]);
+  diagonal[k] = SymmetricBlock(sum);
+}
+
+void SweptSystem::refresh(const BlockSystem& a) {
   forEachIndex(size(), [&](std::size_t k) {
-    Eigen::Matrix3d sum = a.own[order[k]];
-    for (std::int32_t e = row[k].start; e < row[k].end; ++e) sum += matrixOf(coupling[e]);
-    diagonal[k] = SymmetricBlock(sum);
+    changed[k] = own_[k] != a.own[k];
+    if (changed[k]) sumDiagonal(a, k);
   });
 }
 

@@ -11,13 +11,18 @@
 
 namespace spume::foam {
 
-/// A BlockSystem laid out for sweeps of conjugate gradients: rows in space order, cut into blocks of
-/// consecutive rows. Couplings within a block are split into those with rows before and after; couplings to
-/// other blocks stand apart. Couplings are kept in single precision: the matrix differs by 1e-7 of each
-/// spring, which one refinement against the BlockSystem undoes, and a sweep moves half the memory.
+/// A BlockSystem laid out for sweeps of conjugate gradients: rows cut into blocks of consecutive rows, each
+/// row with two runs of couplings, those with later rows of its block and all others. Runs are padded to a
+/// multiple of kRun by couplings that are 0, so that a sweep seldom guesses their ends wrong. Couplings are
+/// kept in single precision: the matrix differs by 1e-7 of each spring, which one refinement against the
+/// BlockSystem undoes, and a sweep moves half the memory.
 struct SweptSystem {
-  static constexpr std::size_t kBlockRows =
-      2048;  ///< few enough for many threads, enough for their inside to count
+  /// Rows of a block, at most: the larger, the better the factor; the fewer, the more threads.
+  static constexpr std::size_t kBlockRows = 8192;
+  static constexpr std::size_t kAbreast = 2;  ///< blocks a thread sweeps side by side
+  static constexpr std::size_t kLeastGroups = 2;
+  static constexpr std::size_t kLeastRows = 1024;  ///< of a block: a cut costs more than it gains below
+  static constexpr std::int32_t kRun = 4;
 
   /// along [kg^1/2] and, last, across [kg] of a CouplingBlock.
   using Coupling = Eigen::Vector4f;
@@ -28,44 +33,62 @@ struct SweptSystem {
 
   /// Where a row's couplings begin, by kind.
   struct Row {
-    std::int32_t start;   ///< couplings with earlier rows of the block
-    std::int32_t after;   ///< first with later rows of the block
+    std::int32_t ahead;   ///< couplings with later rows of the block
+    std::int32_t behind;  ///< first with earlier rows of the block
     std::int32_t beyond;  ///< first with other blocks
     std::int32_t end;
   };
 
-  std::vector<std::int32_t> order;  ///< row of the BlockSystem behind each row here
   std::vector<Row> row;
-  std::vector<std::int32_t> other;  ///< row here
+  /// Place of the other row's number in a list of 2 n + 2: its own number where it is ahead or in another
+  /// block, n + 1 more where it is behind in this block. Padding has n.
+  std::vector<std::int32_t> other;
   std::vector<Coupling> coupling;
   std::vector<SymmetricBlock> diagonal;  ///< own block and all couplings [kg]
+  std::vector<std::uint8_t> changed;     ///< diagonals the last refresh() has changed
 
   std::size_t size() const { return row.size(); }
-  std::size_t blocks() const { return (size() + kBlockRows - 1) / kBlockRows; }
+  std::size_t blockRows() const { return blockRows_; }
+  std::size_t groups() const { return (size() + kAbreast * blockRows_ - 1) / (kAbreast * blockRows_); }
 
-  /// Copies the couplings of `a`. With `sweeps` false all couplings count as beyond their block: nothing to
-  /// sweep along.
+  /// Copies `a`. With `sweeps` false all couplings count as beyond their block: nothing to sweep along.
   void copy(const BlockSystem& a, bool sweeps);
-  /// Copies its own blocks, once its couplings are here.
-  void copyDiagonals(const BlockSystem& a);
+  /// Copies its own blocks again where they have changed; its couplings must not have.
+  void refresh(const BlockSystem& a);
 
  private:
+  enum class Kind : std::uint8_t { ahead, behind, beyond };
+  Kind kindOf(std::size_t k, std::size_t other, bool sweeps) const;
+  Row countRow(const BlockSystem& a, std::size_t k, bool sweeps) const;
   void copyRow(const BlockSystem& a, std::size_t k, bool sweeps);
+  void sumDiagonal(const BlockSystem& a, std::size_t k);
 
-  std::vector<std::int32_t> rank_;  ///< row here of each row of the BlockSystem
+  std::size_t blockRows_ = 1;
+  std::vector<Eigen::Matrix3d> own_;  ///< of the BlockSystem, as last copied [kg]
 };
 
-/// Calls body(first row, one past the last row) for each block, in parallel.
+/// Calls body(group, row) for the rows of each block in order. The blocks of a group go side by side, the
+/// first row of each, then the second: a row waits for the one before it, and others fill the wait. Groups
+/// run in parallel.
 template <typename Body>
-void forEachBlock(const SweptSystem& a, const Body& body) {
-  const auto visit = [&](std::size_t block) {
-    const std::size_t first = block * SweptSystem::kBlockRows;
-    body(first, std::min(first + SweptSystem::kBlockRows, a.size()));
-  };
-  if (a.blocks() == 1)
-    visit(0);
-  else
-    tbb::parallel_for(std::size_t{0}, a.blocks(), visit);
+void sweepForth(const SweptSystem& a, const Body& body) {
+  const std::size_t rows = a.blockRows(), groupRows = SweptSystem::kAbreast * rows;
+  tbb::parallel_for(std::size_t{0}, a.groups(), [&](std::size_t group) {
+    const std::size_t first = group * groupRows, end = std::min(first + groupRows, a.size());
+    for (std::size_t k = first; k < std::min(first + rows, end); ++k)
+      for (std::size_t row = k; row < end; row += rows) body(group, row);
+  });
+}
+
+/// The same with the rows of each block from last to first.
+template <typename Body>
+void sweepBack(const SweptSystem& a, const Body& body) {
+  const std::size_t rows = a.blockRows(), groupRows = SweptSystem::kAbreast * rows;
+  tbb::parallel_for(std::size_t{0}, a.groups(), [&](std::size_t group) {
+    const std::size_t first = group * groupRows, end = std::min(first + groupRows, a.size());
+    for (std::size_t k = std::min(first + rows, end); k-- > first;)
+      for (std::size_t row = k; row < end; row += rows) body(group, row);
+  });
 }
 
 }  // namespace spume::foam

@@ -37,7 +37,7 @@ void printRow(const FloatingFoam& foam, const StillPool& pool, double k, double 
   FoamParams params = foam.params;
   params.springFromSurfaceTension = false, params.springStiffness = k, params.springFloor = 0;
   params.solverIterations = 100000;
-  BubbleStore bubbles = foam.bubbles;
+  BubbleStore bubbles = inSpaceOrder(foam.bubbles);
   FoamTopology topology;
   PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
   Integrator integrator(params);

@@ -83,7 +83,7 @@ struct Reference {
   long iterations = 0;
 
   Reference(const FloatingFoam& foam, const StillPool& pool, double dt) {
-    BubbleStore bubbles = foam.bubbles;
+    BubbleStore bubbles = inSpaceOrder(foam.bubbles);
     FoamTopology topology;
     complex = secondsOf([&] { alphaComplexEdges(bubbles.position, bubbles.radius, bubbles.id, 0); });
     withVolumes =

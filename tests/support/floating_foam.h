@@ -7,6 +7,7 @@
 #include "foam/integrator.h"
 #include "foam/near_walls.h"
 #include "foam/presets.h"
+#include "foam/space_order.h"
 #include "foam/still_pool.h"
 #include "tests/support/foam_relaxed.h"
 
@@ -40,6 +41,15 @@ struct FloatingFoam {
     box.closed = {true, true, true, false, true, true};
   }
 };
+
+/// The bubbles in space order, as a step has them.
+inline BubbleStore inSpaceOrder(const BubbleStore& bubbles) {
+  std::vector<std::int32_t> order;
+  sortInSpace(bubbles.position, order);
+  BubbleStore sorted;
+  sorted.gather(bubbles, order);
+  return sorted;
+}
 
 /// The part of a step that solves, from bubbles and their geometry; leaves the system in the integrator.
 inline SolveReport coupleOnce(Integrator& integrator, const StillPool& pool, double dt,
