@@ -124,9 +124,9 @@ SolveReport Integrator::solveWithContacts(double dt) {
   double aim = std::max(goal, kFirstAim * first);
   for (int pass = 0; pass < kWallPasses; ++pass) {
     if (pass == kWallPasses - 1) aim = goal;
-    const SolveReport done =
-        pass == 0 ? solver_.solve(system_, impulse_, aim, params_.solverIterations, change_)
-                  : solver_.solveAgain(system_, impulse_, aim, params_.solverIterations, change_);
+    const int left = params_.solverIterations - report.iterations;
+    const SolveReport done = pass == 0 ? solver_.solve(system_, impulse_, aim, left, change_)
+                                       : solver_.solveAgain(system_, impulse_, aim, left, change_);
     report = {report.iterations + done.iterations, done.residual, done.converged,
               report.fellBack || done.fellBack};
     const bool settled = !contacts_.update(motion_, change_, dt, system_, impulse_);
