@@ -89,8 +89,11 @@ SignedDistance liquidInVessel(const SolidSpec& vessel, double depth, const Eigen
   const Eigen::Vector3d surface = pose.toWorld(vessel.shape.centre + depth * axis);
   const Eigen::Vector3d against = gravity.norm() > 0 ? gravity : Eigen::Vector3d(-(pose.rotation * axis));
   const Eigen::Vector3d up = -against.normalized();
+  // Not the larger of two distances: up to the walls the liquid must be as deep as its surface says, on both
+  // sides. Where the room ends, inside the wall, nothing reads it.
   return [shape = vessel.shape, pose, surface, up](const Eigen::Vector3d& x) {
-    return std::max(roomInVessel(shape, pose.toPlaced(x)), up.dot(x - surface));
+    const bool inRoom = roomInVessel(shape, pose.toPlaced(x)) < 0;
+    return inRoom ? up.dot(x - surface) : std::numeric_limits<double>::max();
   };
 }
 

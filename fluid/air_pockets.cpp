@@ -13,13 +13,14 @@ bool isSmall(const AirPocket& pocket) {
 
 /// Level to give a filled cell: the mean of its liquid neighbours', or one cell deep if all belong to the
 /// pocket [m].
-float levelOfNeighbours(const GridSpec& grid, const DenseField<float>& phi, const Eigen::Vector3i& c) {
+float levelOfNeighbours(const GridSpec& grid, const WallSides& sides, const DenseField<float>& phi,
+                        const Eigen::Vector3i& c) {
   double sum = 0;
   int count = 0;
   for (int a = 0; a < 3; ++a)
     for (int side : {-1, 1}) {
       const Eigen::Vector3i n = c + side * Eigen::Vector3i::Unit(a);
-      if (!phi.contains(n.x(), n.y(), n.z()) || phi(n) >= 0) continue;
+      if (!phi.contains(n.x(), n.y(), n.z()) || phi(n) >= 0 || !sides.sees(c, n)) continue;
       sum += phi(n);
       ++count;
     }
@@ -60,18 +61,20 @@ void fill(const GridSpec& grid, const SolidBoundary& boundary, const MacVelocity
   const double before = liquidAround(grid, boundary, cells, phi);
   for (const Eigen::Vector3i& c : cells) {
     pocket.velocity += cellVelocity(velocity, c) / static_cast<double>(cells.size());
-    phi(c) = levelOfNeighbours(grid, phi, c);
+    phi(c) = levelOfNeighbours(grid, boundary.sides, phi, c);
   }
   pocket.pocket.gas = std::max(0.0, liquidAround(grid, boundary, cells, phi) - before);
 }
 
 /// Air of a liquid cell that the surface cuts belongs to its neighbour highest above the surface.
-bool ownsAirOf(const DenseField<float>& phi, const Eigen::Vector3i& owner, const Eigen::Vector3i& liquid) {
+bool ownsAirOf(const WallSides& sides, const DenseField<float>& phi, const Eigen::Vector3i& owner,
+               const Eigen::Vector3i& liquid) {
   Eigen::Vector3i best = liquid;
   for (int a = 0; a < 3; ++a)
     for (int side : {-1, 1}) {
       const Eigen::Vector3i n = liquid + side * Eigen::Vector3i::Unit(a);
-      if (phi.contains(n.x(), n.y(), n.z()) && phi(n) >= 0 && phi(n) > phi(best)) best = n;
+      const bool air = phi.contains(n.x(), n.y(), n.z()) && phi(n) >= 0 && sides.sees(liquid, n);
+      if (air && phi(n) > phi(best)) best = n;
     }
   return best == owner;
 }
@@ -144,7 +147,8 @@ void AirPockets::measure(const GridSpec& grid, const DenseField<float>& phi, con
     for (int a = 0; a < 3; ++a)
       for (int side : {-1, 1}) {
         const Eigen::Vector3i n = c + side * Eigen::Vector3i::Unit(a);
-        if (phi.contains(n.x(), n.y(), n.z()) && phi(n) < 0 && ownsAirOf(phi, c, n)) pocket.gas += air(n);
+        const bool liquid = phi.contains(n.x(), n.y(), n.z()) && phi(n) < 0;
+        if (liquid && ownsAirOf(boundary.sides, phi, c, n)) pocket.gas += air(n);
       }
   }
   pocket.gas *= grid.cellVolume();

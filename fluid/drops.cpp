@@ -21,6 +21,11 @@ Eigen::Vector3f centred(const GridSpec& grid, const Eigen::Vector3d& world) {
   return grid.toCells(world).cast<float>().cwiseMax(0.5f).cwiseMin(top);
 }
 
+/// The cell that holds a point, the nearest one outside the grid.
+Eigen::Vector3i cellOf(const GridSpec& grid, const Eigen::Vector3d& world) {
+  return grid.toCells(world).array().floor().cast<int>().max(0).min(grid.cells.array() - 1);
+}
+
 /// Pushes a drop out of the nearest solid and takes the velocity into it.
 void slideOff(const MarkerScene& scene, const FieldView& psi, Drop& drop) {
   const Eigen::Vector3f at = centred(scene.grid, drop.position);
@@ -51,19 +56,46 @@ bool keepInside(const MarkerScene& scene, Drop& drop) {
   return true;
 }
 
+/// Ends a drop's way at a thin wall it met and takes the velocity into it.
+void keepOnSide(const MarkerScene& scene, const Eigen::Vector3d& from, Drop& drop) {
+  const auto cells = [&](const Eigen::Vector3d& x) -> Eigen::Vector3f {
+    return scene.grid.toCells(x).cast<float>();
+  };
+  const Eigen::Vector3i start = cellOf(scene.grid, from);
+  const bool held = scene.solids.hasOpenFace(start.x(), start.y(), start.z());
+  if (!held || !(scene.solids.sides.guard(start) & WallSides::kInReach)) return;
+  const Walk walk = walkThroughFaces(scene.solids, start, cells(from), cells(drop.position));
+  for (int a = 0; a < 3; ++a) {
+    if (!walk.stopped[a]) continue;
+    drop.position[a] = scene.grid.toWorld(walk.at.cast<double>())[a];
+    drop.velocity[a] = 0;
+  }
+}
+
+/// phi at a drop as the side of its cell sees it [m].
+float surfaceAt(const MarkerScene& scene, const DenseField<float>& phi, const Drop& drop) {
+  const Eigen::Vector3f at = scene.grid.toCells(drop.position).cast<float>();
+  const Eigen::Vector3i cell = cellOf(scene.grid, drop.position);
+  const WallSides& sides = scene.solids.sides;
+  if (sides.guard(cell) & WallSides::kBeside) return sides.valueIn(phi, cell, at);
+  return sampleCentred(FieldView(phi), at.x(), at.y(), at.z());
+}
+
 enum class Fate { flies, landed, left };
 
-Fate flyOne(const MarkerScene& scene, const FieldView& phi, const FieldView& psi, double dt, Drop& drop) {
+Fate flyOne(const MarkerScene& scene, const DenseField<float>& phi, const FieldView& psi, double dt,
+            Drop& drop) {
   const double way = dt * (drop.velocity.norm() + dt * scene.params.gravity.norm());
   const int pieces = std::max(1, static_cast<int>(std::ceil(way / (kLongestWay * scene.grid.dx))));
   const double h = dt / pieces;
   for (int n = 0; n < pieces; ++n) {
+    const Eigen::Vector3d from = drop.position;
     drop.position += h * drop.velocity + 0.5 * h * h * scene.params.gravity;
     drop.velocity += h * scene.params.gravity;
     if (!keepInside(scene, drop)) return Fate::left;
     slideOff(scene, psi, drop);
-    const Eigen::Vector3f at = scene.grid.toCells(drop.position).cast<float>();
-    if (sampleCentred(phi, at.x(), at.y(), at.z()) < 0) return Fate::landed;
+    keepOnSide(scene, from, drop);
+    if (surfaceAt(scene, phi, drop) < 0) return Fate::landed;
   }
   return Fate::flies;
 }
@@ -89,11 +121,11 @@ std::vector<Drop> Drops::launch(const MarkerScene& scene, const DenseField<float
 }
 
 DropFlight fly(const MarkerScene& scene, const DenseField<float>& phi, double dt, std::vector<Drop>& drops) {
-  const FieldView field(phi), psi(scene.solids.psi);
+  const FieldView psi(scene.solids.psi);
   DropFlight flight;
   std::size_t kept = 0;
   for (Drop& drop : drops) {
-    switch (flyOne(scene, field, psi, dt, drop)) {
+    switch (flyOne(scene, phi, psi, dt, drop)) {
       case Fate::flies:
         drops[kept++] = drop;
         break;
@@ -124,8 +156,7 @@ Eigen::Vector3d momentumOf(const std::vector<Drop>& drops, double density) {
 void depositMomentum(const GridSpec& grid, const std::vector<Drop>& landed, MacVelocity& velocity) {
   for (const Drop& drop : landed) {
     const double share = 0.5 * std::min(drop.volume / grid.cellVolume(), 1.0);
-    const Eigen::Vector3i cell =
-        grid.toCells(drop.position).array().floor().cast<int>().max(0).min(grid.cells.array() - 1).matrix();
+    const Eigen::Vector3i cell = cellOf(grid, drop.position);
     for (int a = 0; a < 3; ++a)
       for (const Eigen::Vector3i& face : {cell, Eigen::Vector3i(cell + Eigen::Vector3i::Unit(a))}) {
         float& u = velocity[a](face);

@@ -11,12 +11,6 @@
 namespace spume::fluid {
 namespace {
 
-/// How far into the free space a cell behind a wall looks [cells]: as deep as any stencil reads.
-constexpr float kMirrorReach = 4;
-/// Sweeps over the cells behind walls whose mirror points touch other such cells; each sweep shrinks what is
-/// left of the first guess at least by half, so that 4 leave a few per cent of a near-wall difference.
-constexpr int kMirrorSweeps = 4;
-
 int reflect(int i, int n) {
   const int inside = i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i;
   return std::clamp(inside, 0, n - 1);
@@ -82,76 +76,6 @@ void initialiseLevelSet(const GridSpec& grid, const std::function<double(const E
   fillGhostLayers(phi);
 }
 
-SolidExtension::Mirror SolidExtension::mirrorOf(const GridSpec& grid, const SolidBoundary& solids, int i,
-                                                int j, int k) const {
-  const DenseField<float>& psi = solids.psi;
-  const float dx = static_cast<float>(grid.dx);
-  const float depth = -psi(i, j, k) / dx;
-  Eigen::Vector3f normal = wallNormal(psi, dx, i, j, k);
-  normal /= std::max(normal.norm(), 1e-6f);
-  const Eigen::Vector3f target = Eigen::Vector3f(i, j, k) + (depth + std::min(depth, kMirrorReach)) * normal;
-  Eigen::Vector3i base;
-  Eigen::Vector3f t;
-  for (int a = 0; a < 3; ++a) {
-    const float inside = std::clamp(target[a], 0.0f, static_cast<float>(psi.size()[a] - 1));
-    base[a] = std::min(static_cast<int>(inside), std::max(psi.size()[a] - 2, 0));
-    t[a] = inside - static_cast<float>(base[a]);
-  }
-  Mirror mirror{static_cast<std::int32_t>(psi.index(i, j, k)),
-                static_cast<std::int32_t>(psi.index(base.x(), base.y(), base.z())),
-                {},
-                {}};
-  float wetSum = 0;
-  for (int c = 0; c < 8; ++c) {
-    const Eigen::Vector3i step(c >> 2, (c >> 1) & 1, c & 1);
-    float weight = 1;
-    for (int a = 0; a < 3; ++a) weight *= step[a] ? t[a] : 1 - t[a];
-    const Eigen::Vector3i corner = (base + step).cwiseMin(psi.size() - Eigen::Vector3i::Ones());
-    mirror.weight[c] = weight;
-    mirror.wet[c] = psi(corner) > 0 ? weight : 0;
-    wetSum += mirror.wet[c];
-  }
-  if (wetSum > 0)
-    for (float& weight : mirror.wet) weight /= wetSum;
-  return mirror;
-}
-
-void SolidExtension::rebuild(const GridSpec& grid, const SolidBoundary& solids) {
-  mirrors_.clear();
-  for (int i = 0; i < grid.cells.x(); ++i)
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k)
-        if (solids.psi(i, j, k) <= 0) mirrors_.push_back(mirrorOf(grid, solids, i, j, k));
-  value_.resize(mirrors_.size());
-}
-
-void SolidExtension::fill(DenseField<float>& field, bool wetOnly) const {
-  float* data = field.data();
-  const std::ptrdiff_t si = field.stride(0), sj = field.stride(1);
-  const std::array<std::ptrdiff_t, 8> step{0, 1, sj, sj + 1, si, si + 1, si + sj, si + sj + 1};
-  const std::size_t count = mirrors_.size();
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t m) {
-    const Mirror& mirror = mirrors_[m];
-    const float* weight = wetOnly ? mirror.wet : mirror.weight;
-    float sum = 0, weights = 0;
-    for (int c = 0; c < 8; ++c) {
-      sum += weight[c] * data[mirror.base + step[c]];
-      weights += weight[c];
-    }
-    value_[m] = weights > 0 ? sum : data[mirror.cell];
-  });
-  for (std::size_t m = 0; m < count; ++m) data[mirrors_[m].cell] = value_[m];
-}
-
-void SolidExtension::apply(DenseField<float>& field) const {
-  if (!mirrors_.empty()) {
-    fillGhostLayers(field);  // the cubes of points at the domain faces read one ghost, with weight 0
-    fill(field, true);
-    for (int sweep = 0; sweep < kMirrorSweeps; ++sweep) fill(field, false);
-  }
-  fillGhostLayers(field);
-}
-
 namespace {
 
 /// Largest curvature term of the volume [phi per cell]: that of a drop of 2.7 cells radius. At kinks the
@@ -197,6 +121,18 @@ void findOctants(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float shi
   }
 }
 
+/// Fraction of a cell that is liquid, from its value and those around it.
+float liquidFractionAround(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float dx) {
+  if (std::abs(*p) > kUncutDistance * dx) return *p < 0 ? 1.0f : 0.0f;
+  const float shift = std::clamp(laplacian(p, si, sj), -kMaxLaplacian * dx, kMaxLaplacian * dx) / 12;
+  Octants octants;
+  findOctants(p, si, sj, shift, octants);
+  double sum = 0;
+  for (int n = 0; n < 8; ++n)
+    sum += planeFraction(octants.value[n], octants.gx[n], octants.gy[n], octants.gz[n]);
+  return static_cast<float>(sum / 8);
+}
+
 /// The interval of [-1/2, 1/2] on which value + slope s < 0.
 struct Interval {
   double low, high;
@@ -207,17 +143,16 @@ Interval negativePart(double value, double slope) {
   return slope > 0 ? Interval{-0.5, root} : Interval{root, 0.5};
 }
 
-Eigen::Vector3d centralSlope(const DenseField<float>& f, int i, int j, int k) {
-  return 0.5 * Eigen::Vector3d(f(i + 1, j, k) - f(i - 1, j, k), f(i, j + 1, k) - f(i, j - 1, k),
-                               f(i, j, k + 1) - f(i, j, k - 1));
+Eigen::Vector3d centralSlope(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj) {
+  return 0.5 * Eigen::Vector3d(p[si] - p[-si], p[sj] - p[-sj], p[1] - p[-1]);
 }
 
 /// Liquid part of the free space of a cell that both a wall and the surface may cut: both as planes,
 /// integrated exactly along columns across the wall.
-double liquidShareOfCutCell(const DenseField<float>& phi, const SolidBoundary& solids, float dx, int i, int j,
-                            int k) {
-  const double phi0 = phi(i, j, k), psi0 = solids.psi(i, j, k);
-  const Eigen::Vector3d phiSlope = centralSlope(phi, i, j, k);
+double liquidShareOfCutCell(const float* phi, std::ptrdiff_t si, std::ptrdiff_t sj,
+                            const SolidBoundary& solids, float dx, int i, int j, int k) {
+  const double phi0 = phi[0], psi0 = solids.psi(i, j, k);
+  const Eigen::Vector3d phiSlope = centralSlope(phi, si, sj);
   const Eigen::Vector3d psiSlope = dx * wallNormal(solids.psi, dx, i, j, k).cast<double>();
   int across;
   psiSlope.cwiseAbs().maxCoeff(&across);
@@ -238,23 +173,20 @@ float liquidOfCell(const DenseField<float>& phi, const SolidBoundary& solids, fl
   if (open <= 0) return 0;
   const float value = phi(i, j, k);
   if (std::abs(value) > kUncutDistance * dx) return value < 0 ? open : 0;
-  if (open >= 1) return liquidFractionOfCell(phi, dx, i, j, k);
-  return static_cast<float>(open * liquidShareOfCutCell(phi, solids, dx, i, j, k));
+  const auto liquid = [&](const float* p, std::ptrdiff_t si, std::ptrdiff_t sj) {
+    if (open >= 1) return liquidFractionAround(p, si, sj, dx);
+    return static_cast<float>(open * liquidShareOfCutCell(p, si, sj, solids, dx, i, j, k));
+  };
+  if (!(solids.sides.guard(i, j, k) & WallSides::kBeside))
+    return liquid(&phi(i, j, k), phi.stride(0), phi.stride(1));
+  const WallSides::Block own = solids.sides.read(phi, {i, j, k});
+  return liquid(&own[WallSides::kCentre], 9, 3);
 }
 
 }  // namespace
 
 float liquidFractionOfCell(const DenseField<float>& phi, float dx, int i, int j, int k) {
-  const float* p = &phi(i, j, k);
-  if (std::abs(*p) > kUncutDistance * dx) return *p < 0 ? 1.0f : 0.0f;
-  const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
-  const float shift = std::clamp(laplacian(p, si, sj), -kMaxLaplacian * dx, kMaxLaplacian * dx) / 12;
-  Octants octants;
-  findOctants(p, si, sj, shift, octants);
-  double sum = 0;
-  for (int n = 0; n < 8; ++n)
-    sum += planeFraction(octants.value[n], octants.gx[n], octants.gy[n], octants.gz[n]);
-  return static_cast<float>(sum / 8);
+  return liquidFractionAround(&phi(i, j, k), phi.stride(0), phi.stride(1), dx);
 }
 
 void computeLiquidFraction(const DenseField<float>& phi, const SolidBoundary& solids, float dx,

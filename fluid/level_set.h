@@ -25,30 +25,6 @@ void fillGhostLayers(MacVelocity& velocity);
 void initialiseLevelSet(const GridSpec& grid, const std::function<double(const Eigen::Vector3d&)>& phi0,
                         DenseField<float>& phi);
 
-/// Continues cell-centred fields into the solids along the wall normal, by reflection: nothing may read past
-/// a wall, and the surface meets it at 90 degrees (model, "Liquid").
-class SolidExtension {
- public:
-  /// Finds the cells behind walls and their mirror points. Call again whenever solids have moved.
-  void rebuild(const GridSpec& grid, const SolidBoundary& solids);
-  /// Overwrites `field` behind the walls (the reflection reaches at most kMirrorReach cells into the
-  /// free space, deeper cells repeat that value) and in the ghosts.
-  void apply(DenseField<float>& field) const;
-
- private:
-  struct Mirror {
-    std::int32_t cell;  ///< offset of the cell in the field
-    std::int32_t base;  ///< offset of the low corner of the mirror point's interpolation cube
-    float weight[8];    ///< trilinear weights of the cube's corners, z fastest
-    float wet[8];       ///< the same over corners in free space only, summing to 1 (or all 0)
-  };
-  Mirror mirrorOf(const GridSpec& grid, const SolidBoundary& solids, int i, int j, int k) const;
-  void fill(DenseField<float>& field, bool wetOnly) const;
-
-  std::vector<Mirror> mirrors_;
-  mutable std::vector<float> value_;  ///< scratch of `apply`, one per mirror
-};
-
 /// Fraction 0..1 of the free space of cell (i, j, k) that is liquid: trilinear phi in its eight octants, each
 /// cut by its own plane, with the curvature of the interpolant taken out. `phi` must have its ghosts filled.
 float liquidFractionOfCell(const DenseField<float>& phi, float dx, int i, int j, int k);

@@ -76,11 +76,49 @@ LevelSetAdvection::LevelSetAdvection(const GridSpec& grid)
       kinks_(grid.cells) {}
 
 void LevelSetAdvection::advance(LevelSetTransport transport, const MacVelocity& velocity, double dt,
-                                DenseField<float>& phi) {
+                                DenseField<float>& phi, const SolidBoundary* solids) {
+  solids_ = solids && solids->sides.any() ? solids : nullptr;
   if (transport == LevelSetTransport::weno5)
     weno5(velocity, dt, phi);
   else
     semiLagrangian(velocity, dt, phi);
+}
+
+/// Value that comes to a cell within reach of a thin wall: on a way through open faces alone.
+float LevelSetAdvection::valueBesideWall(const DenseField<float>& phi, const MacVelocity& velocity,
+                                         float cellsPerSpeed, const Eigen::Vector3i& c) const {
+  PathPoints centre, startWind, from;
+  cellStarts(velocity, c.x(), c.y(), c.z(), centre, startWind);
+  tracePaths(MacView(velocity), grid_.cells.cast<float>(), -cellsPerSpeed, centre, startWind, from);
+  const Eigen::Vector3f start = c.cast<float>() + Eigen::Vector3f::Constant(0.5f);
+  const Walk walk = walkThroughFaces(*solids_, c, start, {from.x[0], from.y[0], from.z[0]});
+  const WallSides::Guard guard = solids_->sides.guard(walk.cell);
+  if (guard & WallSides::kBeside) return solids_->sides.valueIn(phi, walk.cell, walk.at);
+  const FieldView view(phi);
+  const Eigen::Vector3f at = walk.at - Eigen::Vector3f::Constant(0.5f);
+  const float linear = sampleInner(view, at.x(), at.y(), at.z());
+  const bool plain = guard & WallSides::kNear || std::abs(linear) > kAccurateReach * grid_.dx;
+  return plain ? linear : sampleSurface(view, phi, kinks_, at.x(), at.y(), at.z());
+}
+
+/// Does the cells within reach of a thin wall again, as their side of it sees them.
+void LevelSetAdvection::keepSides(const DenseField<float>& phi, const MacVelocity& velocity, double dt,
+                                  DenseField<float>& moved) const {
+  if (!solids_) return;
+  const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
+  forEachRow(grid_.cells, [&](int i, int j) {
+    const RowSpans::Span span = moving_.cells(i, j);
+    for (int k = span.begin; k < span.end; ++k)
+      if (solids_->sides.guard(i, j, k) & WallSides::kInReach && solids_->hasOpenFace(i, j, k))
+        moved(i, j, k) = valueBesideWall(phi, velocity, cellsPerSpeed, {i, j, k});
+  });
+}
+
+/// Cells that no path joins to the band stay as they are.
+void LevelSetAdvection::findMoving(const DenseField<float>& phi, const MacVelocity& velocity, double dt) {
+  const float limit = kLevelSetBand * (1 - 1e-5f) * static_cast<float>(grid_.dx);
+  moving_.find(phi, [limit](float value) { return std::abs(value) < limit; });
+  moving_.grow(static_cast<int>(std::ceil(largestSpeed(velocity) * dt / grid_.dx)) + 1);
 }
 
 void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, DenseField<float>& phi) {
@@ -90,11 +128,8 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
   const FieldView source(phi);
   const Eigen::Vector3f top = grid_.cells.cast<float>();
   const float cellsPerSpeed = static_cast<float>(dt / grid_.dx);
-  const float limit = kLevelSetBand * (1 - 1e-5f) * static_cast<float>(grid_.dx);
   const float nearby = kAccurateReach * static_cast<float>(grid_.dx);
-  // Cells that no path joins to the band stay as they are.
-  moving_.find(phi, [limit](float value) { return std::abs(value) < limit; });
-  moving_.grow(static_cast<int>(std::ceil(largestSpeed(velocity) * cellsPerSpeed)) + 1);
+  findMoving(phi, velocity, dt);
   forEachRow(grid_.cells, [&](int i, int j) {
     std::copy_n(&phi(i, j, 0), grid_.cells.z(), &next_(i, j, 0));
     const RowSpans::Span span = moving_.cells(i, j);
@@ -111,6 +146,7 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
                                                               from.y[n] - 0.5f, from.z[n] - 0.5f);
     }
   });
+  keepSides(phi, velocity, dt, next_);
   phi.swap(next_);
   fillGhostLayers(phi);
 }
@@ -160,6 +196,7 @@ void LevelSetAdvection::weno5(const MacVelocity& velocity, double dt, DenseField
   const int steps = std::max(1, static_cast<int>(std::ceil(cfl / kWenoCfl)));
   const float h = static_cast<float>(dt / steps);
   fillGhostLayers(phi);
+  if (solids_) next_ = phi, markKinks(phi, kinks_), findMoving(phi, velocity, dt);
   for (int step = 0; step < steps; ++step) {
     start_ = phi;
     for (const float ofStart : {0.0f, 0.75f, 1.0f / 3}) {
@@ -167,6 +204,7 @@ void LevelSetAdvection::weno5(const MacVelocity& velocity, double dt, DenseField
       combine(phi, ofStart, h);
     }
   }
+  keepSides(next_, velocity, dt, phi);
 }
 
 }  // namespace spume::fluid

@@ -9,16 +9,16 @@
 namespace spume::fluid {
 namespace {
 
-/// Body of a cell whose centre is in air but which the surface cuts: that of its deepest liquid neighbour, or
-/// -1.
-std::int32_t neighbourBody(const DenseField<float>& phi, const DenseField<std::int32_t>& label, int i, int j,
-                           int k) {
+/// Body of a cell whose centre is in air but which the surface cuts: that of its deepest liquid neighbour on
+/// its side of thin walls, or -1.
+std::int32_t neighbourBody(const DenseField<float>& phi, const DenseField<std::int32_t>& label,
+                           const WallSides& sides, int i, int j, int k) {
   std::int32_t body = -1;
   float deepest = 0;
   for (int a = 0; a < 3; ++a)
     for (int side : {-1, 1}) {
       const Eigen::Vector3i n = Eigen::Vector3i(i, j, k) + side * Eigen::Vector3i::Unit(a);
-      if (label(n) < 0 || phi(n) >= deepest) continue;
+      if (label(n) < 0 || phi(n) >= deepest || !sides.sees({i, j, k}, n)) continue;
       deepest = phi(n);
       body = label(n);
     }
@@ -104,7 +104,7 @@ void LiquidBodies::measureSlab(int i, const GridSpec& grid, const DenseField<flo
         part.volume += wet;
         noteAir(body, {i, j, k});
       } else if (wet > 0) {
-        partOf(neighbourBody(phi, label, i, j, k)).volume += wet;
+        partOf(neighbourBody(phi, label, boundary.sides, i, j, k)).volume += wet;
       }
     }
 }

@@ -50,18 +50,21 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
       escape(setup.grid),
       drops(setup.grid),
       pocketBooks(setup.grid, params),
-      volumeControl(setup.grid, params),
+      volumeControl(setup.grid, params, &solids),
       viscosity(setup.grid, params),
       projection(setup.grid, params),
       source(setup.grid.cells),
       fraction(setup.grid.cells),
       cellMark(setup.grid.cells, -1) {
   state.grid = setup.grid;
+  solids.sides.walkReach = static_cast<int>(std::ceil(params.cfl)) + kStencilReach;
+  params.gravity.cwiseAbs().maxCoeff(&solids.sides.upAxis);
+  if (!setup.solids.empty()) solids.sides.find(solids);
 }
 
 void LiquidStages::start() {
   updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time, solids);
-  extension.rebuild(state.grid, solids);
+  extension.rebuild(solids);
   maxSpeed = maxFaceSpeed(state.phi, state.velocity);
 }
 
@@ -109,21 +112,28 @@ int LiquidStages::subStepsFor(double dt) const {
 }
 
 void LiquidStages::moveSolids(double dt) {
-  const bool moving =
-      std::any_of(setup.solids.begin(), setup.solids.end(), [](const auto& s) { return s.moves; });
-  if (!moving) return;
-  updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time + dt, solids);
-  extension.rebuild(state.grid, solids);
+  if (std::none_of(setup.solids.begin(), setup.solids.end(), [](const auto& s) { return s.moves; })) return;
+  psiBefore = solids.psi;
+  if (!updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time + dt, solids)) {
+    if (extension.hasUncovered()) extension.rebuild(solids);  // as a resumed run has it
+    return;
+  }
+  extension.rebuild(solids, &psiBefore);
+  extension.uncover(state.phi);
+  extension.apply(state.phi);
 }
 
 void LiquidStages::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
   surfaceVelocity = state.velocity;
   extrapolator.goOn(state.phi, solids, surfaceVelocity);
-  levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi);
+  levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi, &solids);
   admitAir(state.grid, solids, surfaceVelocity, dt, state.phi);
-  advectMarkers(markerScene(), surfaceVelocity, dt, state.positive);
-  advectMarkers(markerScene(), surfaceVelocity, dt, state.negative);
+  MarkerScene scene = markerScene();
+  scene.objects = &setup.solids;
+  scene.middle = state.time + 0.5 * dt;
+  advectMarkers(scene, surfaceVelocity, dt, state.positive);
+  advectMarkers(scene, surfaceVelocity, dt, state.negative);
   report.drained += outflows.empty(state.time + dt, solids, state.phi, state.negative, volumeControl);
   extension.apply(state.phi);
   sorter.compact(state.positive);
@@ -131,7 +141,8 @@ void LiquidStages::transport(double dt, LiquidStepReport& report) {
 }
 
 void LiquidStages::correctSurface() {
-  correction.apply(static_cast<float>(state.grid.dx), state.positive, state.negative, state.phi);
+  correction.apply(static_cast<float>(state.grid.dx), solids.sides, state.positive, state.negative,
+                   state.phi);
   extension.apply(state.phi);
 }
 

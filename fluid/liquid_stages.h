@@ -17,6 +17,7 @@
 #include "fluid/pocket_books.h"
 #include "fluid/projection.h"
 #include "fluid/reinitialize.h"
+#include "fluid/solid_extension.h"
 #include "fluid/velocity_advection.h"
 #include "fluid/viscosity.h"
 #include "fluid/volume_control.h"
@@ -58,7 +59,7 @@ struct LiquidStages {
   Viscosity viscosity;
   Projection projection;
   MacVelocity surfaceVelocity;  // carries the surface and its markers
-  DenseField<float> source, fraction;
+  DenseField<float> source, fraction, psiBefore;
   DenseField<std::int32_t> cellMark;
 
   std::vector<Drop> landed;  // in this sub-step

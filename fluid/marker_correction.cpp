@@ -18,24 +18,27 @@ MarkerCorrection::Offer& MarkerCorrection::offerAt(std::int32_t cell, float phi)
 }
 
 /// Values of the sphere around (x, y, z) [index units] at the cell centres around it.
-void MarkerCorrection::addSphere(float dx, float x, float y, float z, float radius,
+void MarkerCorrection::addSphere(float dx, const WallSides& sides, float x, float y, float z, float radius,
                                  const DenseField<float>& phi, std::vector<Value>& values) {
+  const Eigen::Vector3i home = Eigen::Vector3f(x + 0.5f, y + 0.5f, z + 0.5f)
+                                   .cast<int>()
+                                   .cwiseMin(phi.size() - Eigen::Vector3i::Ones());
   const float low[3] = {std::floor(x), std::floor(y), std::floor(z)};
   const int base[3] = {static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
   for (int c = 0; c < 8; ++c) {
     const int di = c >> 2, dj = (c >> 1) & 1, dk = c & 1;
-    if (!phi.contains(base[0] + di, base[1] + dj, base[2] + dk)) continue;
+    const Eigen::Vector3i centre(base[0] + di, base[1] + dj, base[2] + dk);
+    if (!phi.contains(centre.x(), centre.y(), centre.z()) || !sides.sees(home, centre)) continue;
     const float rx = low[0] + static_cast<float>(di) - x, ry = low[1] + static_cast<float>(dj) - y,
                 rz = low[2] + static_cast<float>(dk) - z;
-    const auto cell = static_cast<std::int32_t>(phi.index(base[0] + di, base[1] + dj, base[2] + dk));
+    const auto cell = static_cast<std::int32_t>(phi.index(centre.x(), centre.y(), centre.z()));
     values.push_back({cell, dx * (radius - std::sqrt(rx * rx + ry * ry + rz * rz))});
   }
 }
 
 /// Flags the markers on the wrong side by more than their radius and lists the values of their spheres.
-void MarkerCorrection::findEscaped(float dx, MarkerSign sign, const DenseField<float>& phi,
-                                   MarkerSet& markers) {
-  const FieldView field(phi);
+void MarkerCorrection::findEscaped(float dx, const WallSides& sides, MarkerSign sign,
+                                   const DenseField<float>& phi, MarkerSet& markers) {
   const float toCells = static_cast<float>(static_cast<int>(sign)) / dx;
   chunks_.resize((markers.size() + kMarkerChunk - 1) / kMarkerChunk);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
@@ -43,13 +46,13 @@ void MarkerCorrection::findEscaped(float dx, MarkerSign sign, const DenseField<f
     chunk.escaped = 0;
     chunk.values.clear();
     MarkerValues values;
-    sampleAtMarkers(field, markers, first, last, values);
+    sampleAtMarkers(phi, sides, markers, first, last, values);
     flagEscapedMarkers(values, toCells, first, last, markers);
     for (std::size_t n = first; n < last; ++n) {
       if (!markers.escaped[n]) continue;
       ++chunk.escaped;
-      addSphere(dx, markers.x[n] - 0.5f, markers.y[n] - 0.5f, markers.z[n] - 0.5f, markers.radius[n], phi,
-                chunk.values);
+      addSphere(dx, sides, markers.x[n] - 0.5f, markers.y[n] - 0.5f, markers.z[n] - 0.5f, markers.radius[n],
+                phi, chunk.values);
     }
   });
 }
@@ -68,12 +71,13 @@ void MarkerCorrection::collect(MarkerSign sign, const DenseField<float>& phi) {
   }
 }
 
-void MarkerCorrection::apply(float dx, MarkerSet& positive, MarkerSet& negative, DenseField<float>& phi) {
+void MarkerCorrection::apply(float dx, const WallSides& sides, MarkerSet& positive, MarkerSet& negative,
+                             DenseField<float>& phi) {
   if (slot_.size() != static_cast<std::size_t>(phi.count())) slot_.assign(phi.count(), -1);
   offers_.clear();
   escapedCount_ = 0;
   for (const MarkerSign sign : {MarkerSign::positive, MarkerSign::negative}) {
-    findEscaped(dx, sign, phi, sign == MarkerSign::positive ? positive : negative);
+    findEscaped(dx, sides, sign, phi, sign == MarkerSign::positive ? positive : negative);
     collect(sign, phi);
   }
   for (const Offer& offer : offers_) {

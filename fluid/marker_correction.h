@@ -6,6 +6,7 @@
 
 #include "fluid/dense_field.h"
 #include "fluid/marker_set.h"
+#include "fluid/wall_sides.h"
 
 namespace spume::fluid {
 
@@ -15,7 +16,9 @@ class MarkerCorrection {
   /// Each escaped marker offers its sphere to the eight cell centres around it: phi_p(x) = s (r - |x - x_p|);
   /// phi+ = max over positive markers, phi- = min over negative ones, and the one nearer to zero wins. Sets
   /// the escaped flags. Ghosts of phi must be filled and are refilled. `dx` in [m].
-  void apply(float dx, MarkerSet& positive, MarkerSet& negative, DenseField<float>& phi);
+  /// Beside thin walls a sphere reaches the cells of its own side alone.
+  void apply(float dx, const WallSides& sides, MarkerSet& positive, MarkerSet& negative,
+             DenseField<float>& phi);
 
   /// Markers that offered their sphere in the last call, both signs.
   std::size_t escapedCount() const { return escapedCount_; }
@@ -34,9 +37,10 @@ class MarkerCorrection {
     std::size_t escaped = 0;
     std::vector<Value> values;
   };
-  static void addSphere(float dx, float x, float y, float z, float radius, const DenseField<float>& phi,
-                        std::vector<Value>& values);
-  void findEscaped(float dx, MarkerSign sign, const DenseField<float>& phi, MarkerSet& markers);
+  static void addSphere(float dx, const WallSides& sides, float x, float y, float z, float radius,
+                        const DenseField<float>& phi, std::vector<Value>& values);
+  void findEscaped(float dx, const WallSides& sides, MarkerSign sign, const DenseField<float>& phi,
+                   MarkerSet& markers);
   void collect(MarkerSign sign, const DenseField<float>& phi);
   Offer& offerAt(std::int32_t cell, float phi);
 

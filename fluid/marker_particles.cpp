@@ -113,6 +113,49 @@ void keepFree(const MarkerScene& scene, const FieldView& psi, MarkerSet& markers
   z = std::clamp(z + push * wall.gz, 0.0f, top.z());
 }
 
+/// Point of a moving solid's surroundings after the sub-step, if it had gone along [cell units].
+Eigen::Vector3f carriedBySolid(const MarkerScene& scene, const Eigen::Vector3i& c, double dt,
+                               const Eigen::Vector3f& x) {
+  const int n = scene.objects ? scene.solids.object(c) : -1;
+  if (n < 0 || !(*scene.objects)[n].moves) return x;
+  const Eigen::Vector3d speed =
+      (*scene.objects)[n].velocity(scene.grid.toWorld(x.cast<double>()), scene.middle);
+  return x + (dt / scene.grid.dx * speed).cast<float>();
+}
+
+/// True if the free corner of its cell that is nearest to a marker lies beyond a wall that splits the cell.
+bool isShutOff(const SolidBoundary& solids, const Eigen::Vector3i& c, const Eigen::Vector3f& x) {
+  const int shut = solids.shut(c);
+  if (shut == 0) return false;
+  float least = std::numeric_limits<float>::max();
+  bool off = false;
+  for (int n = 0; n < 8; ++n) {
+    const Eigen::Vector3i corner = c + Eigen::Vector3i(n & 1, n >> 1 & 1, n >> 2);
+    const float square = (corner.cast<float>() - x).squaredNorm();
+    if (solids.nodePsi(corner) <= 0 || square >= least) continue;
+    least = square;
+    off = shut >> n & 1;
+  }
+  return off;
+}
+
+/// Ends a marker's way at the thin wall it met; removes one that a wall has passed over.
+void keepOnSide(const MarkerScene& scene, double dt, const Eigen::Vector3f& from, MarkerSet& markers,
+                std::size_t n) {
+  const Eigen::Vector3i last = scene.grid.cells - Eigen::Vector3i::Ones();
+  const auto cellOf = [&](const Eigen::Vector3f& x) -> Eigen::Vector3i {
+    return x.array().floor().cast<int>().max(0).min(last.array());
+  };
+  Eigen::Vector3i cell = cellOf(from);
+  if (!(scene.solids.sides.guard(cell) & WallSides::kInReach) || std::isnan(markers.x[n])) return;
+  const Eigen::Vector3f start = carriedBySolid(scene, cell, dt, from);
+  cell = cellOf(start);
+  const Walk walk = walkThroughFaces(scene.solids, cell, start, {markers.x[n], markers.y[n], markers.z[n]});
+  markers.x[n] = walk.at.x(), markers.y[n] = walk.at.y(), markers.z[n] = walk.at.z();
+  const bool closed = !scene.solids.hasOpenFace(walk.cell.x(), walk.cell.y(), walk.cell.z());
+  if (closed || isShutOff(scene.solids, walk.cell, walk.at)) markers.x[n] = kRemoved;
+}
+
 }  // namespace
 
 void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double dt, MarkerSet& markers) {
@@ -122,13 +165,22 @@ void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double
   const Eigen::Vector3f top = scene.grid.cells.cast<float>();
   const float cellsPerSpeed = static_cast<float>(dt / scene.grid.dx);
   const float gap = kWallGap * static_cast<float>(scene.grid.dx);
+  const bool thinWalls = scene.solids.sides.any();
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
+    MarkerValues fromX, fromY, fromZ;
+    if (thinWalls) {
+      std::copy(markers.x.begin() + first, markers.x.begin() + last, fromX.begin());
+      std::copy(markers.y.begin() + first, markers.y.begin() + last, fromY.begin());
+      std::copy(markers.z.begin() + first, markers.z.begin() + last, fromZ.begin());
+    }
     moveChunk(wind, top, range, cellsPerSpeed, markers, first, last);
     MarkerCells touching;
     findTouching(psi, top, gap, static_cast<int>(last - first), markers.x.data() + first,
                  markers.y.data() + first, markers.z.data() + first, touching.data());
     for (std::size_t n = first; n < last; ++n)
       if (touching[n - first]) keepFree(scene, psi, markers, n);
+    for (std::size_t n = first; thinWalls && n < last; ++n)
+      keepOnSide(scene, dt, {fromX[n - first], fromY[n - first], fromZ[n - first]}, markers, n);
   });
 }
 
@@ -147,13 +199,12 @@ void boundRadii(float toSide, float low, float high, int count, const float* __r
 
 void adjustRadii(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
                  MarkerSet& markers) {
-  const FieldView field(phi);
   const float toCells = static_cast<float>(static_cast<int>(sign) / scene.grid.dx);
   const float low = static_cast<float>(scene.params.markerRadiusMin);
   const float high = static_cast<float>(scene.params.markerRadiusMax);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     MarkerValues values;
-    sampleAtMarkers(field, markers, first, last, values);
+    sampleAtMarkers(phi, scene.solids.sides, markers, first, last, values);
     boundRadii(toCells, low, high, static_cast<int>(last - first), values.data(),
                markers.radius.data() + first);
     flagEscapedMarkers(values, toCells, first, last, markers);

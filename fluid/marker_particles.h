@@ -17,6 +17,8 @@ struct MarkerScene {
   const FluidParams& params;
   const DomainWalls& walls;
   const SolidBoundary& solids;
+  const std::vector<SolidObject>* objects = nullptr;  ///< the solids as they move in this sub-step, if any
+  double middle = 0;                                  ///< time in the middle of the sub-step [s]
 };
 
 /// Moves markers by dt [s] with the midpoint rule through the staggered velocity (ghosts filled), keeps them

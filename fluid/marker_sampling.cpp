@@ -38,6 +38,20 @@ void sampleAtMarkers(const FieldView& field, const MarkerSet& markers, std::size
                markers.z.data() + first, values.data());
 }
 
+void sampleAtMarkers(const DenseField<float>& phi, const WallSides& sides, const MarkerSet& markers,
+                     std::size_t first, std::size_t last, MarkerValues& values) {
+  sampleAtMarkers(FieldView(phi), markers, first, last, values);
+  if (!sides.any()) return;
+  MarkerCells cells;
+  findMarkerCells(phi, markers, first, last, cells);
+  for (std::size_t n = first; n < last; ++n) {
+    if (!(sides.guardAt(cells[n - first]) & WallSides::kBeside)) continue;
+    const Eigen::Vector3f x(markers.x[n], markers.y[n], markers.z[n]);
+    const Eigen::Vector3i cell = x.cast<int>().cwiseMin(phi.size() - Eigen::Vector3i::Ones());
+    values[n - first] = sides.valueIn(phi, cell, x);
+  }
+}
+
 template <typename T>
 void findMarkerCells(const DenseField<T>& field, const MarkerSet& markers, std::size_t first,
                      std::size_t last, MarkerCells& cells) {

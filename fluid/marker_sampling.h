@@ -6,6 +6,7 @@
 #include "fluid/marker_chunks.h"
 #include "fluid/marker_set.h"
 #include "fluid/sampling.h"
+#include "fluid/wall_sides.h"
 
 namespace spume::fluid {
 
@@ -17,6 +18,10 @@ struct alignas(64) MarkerCells : std::array<std::int32_t, kMarkerChunk> {};
 /// `values[n - first]` belongs to marker n.
 void sampleAtMarkers(const FieldView& field, const MarkerSet& markers, std::size_t first, std::size_t last,
                      MarkerValues& values);
+
+/// The same for phi beside thin walls: a marker sees what is on the side of its cell.
+void sampleAtMarkers(const DenseField<float>& phi, const WallSides& sides, const MarkerSet& markers,
+                     std::size_t first, std::size_t last, MarkerValues& values);
 
 /// Offsets of the cells that hold the markers [first, last) in a field with the strides of `field`. A marker
 /// on the high side of the grid belongs to the last cell.

@@ -17,6 +17,8 @@ constexpr std::uint64_t kSeedPurpose = 0x6d61726b;
 constexpr int kAttempts = 6;
 /// Newton steps of one attraction; phi is a distance, so one nearly always does [Enright 2002].
 constexpr int kAttractions = 3;
+/// Markers by a solid stay this far from it [cells]: as far as their motion keeps them.
+constexpr float kMarkerWallGap = 0.1f;
 /// Cells whose centre lies deeper than this behind a wall get no markers [cells].
 constexpr float kWallDepth = 0.5f;
 
@@ -47,7 +49,20 @@ struct MarkerSeeder::Side {
         band(static_cast<float>(s.params.markerBand)),
         purpose(kSeedPurpose + static_cast<std::uint64_t>(sign == MarkerSign::positive)) {}
 
-  float depth(float x, float y, float z) const { return toCells * sampleCentred(view, x, y, z); }
+  /// Depth of a point in cell `c` [cells].
+  float depth(const Eigen::Vector3i& c, float x, float y, float z) const {
+    const WallSides& sides = scene.solids.sides;
+    const bool besideWall = sides.guard(c) & WallSides::kBeside;
+    return toCells * (besideWall ? sides.valueIn(phi, c, {x, y, z}) : sampleCentred(view, x, y, z));
+  }
+  ValueAndGradient slope(const Eigen::Vector3i& c, float x, float y, float z) const {
+    const WallSides& sides = scene.solids.sides;
+    if (!(sides.guard(c) & WallSides::kBeside)) return sampleCentredGradient(view, x, y, z);
+    const Eigen::Vector3f offset =
+        Eigen::Vector3f(x, y, z) - c.cast<float>() - Eigen::Vector3f::Constant(0.5f);
+    const WallSides::Sample f = WallSides::sample(sides.read(phi, c), offset);
+    return {f.value, f.gradient.x(), f.gradient.y(), f.gradient.z()};
+  }
   /// Markers cell (i, j, k) may keep: near the surface as many as a full cell, whatever part of it phi sees
   /// on their side, because where phi has lost a film the markers are what restores it.
   int allowed(int i, int j, int k) const {
@@ -56,19 +71,31 @@ struct MarkerSeeder::Side {
   /// Markers cell (i, j, k) should have.
   int wanted(int i, int j, int k) const {
     if (scene.solids.psi(i, j, k) < -kWallDepth * scene.grid.dx) return 0;
+    if (scene.solids.sides.any() && !scene.solids.hasOpenFace(i, j, k)) return 0;
     const float depth = toCells * phi(i, j, k);
     if (depth > band) return 0;
     return static_cast<int>(std::lround(scene.params.markersPerCell * sideFraction(depth)));
   }
-  bool attract(CounterRandom& random, float& x, float& y, float& z) const;
+  /// True if a point of cell `c` lies in a solid or so near that the next sub-step would push it away, maybe
+  /// through the surface.
+  bool touchesSolid(const Eigen::Vector3i& c, float x, float y, float z) const {
+    if (!scene.solids.sides.guard(c)) return false;
+    const Eigen::Vector3f top = scene.grid.cells.cast<float>() - Eigen::Vector3f::Constant(0.5f);
+    const Eigen::Vector3f at = Eigen::Vector3f(x, y, z).cwiseMax(0.5f).cwiseMin(top);
+    const float gap = kMarkerWallGap * static_cast<float>(scene.grid.dx);
+    return sampleCentred(FieldView(scene.solids.psi), at.x(), at.y(), at.z()) < gap ||
+           sampleIndex(FieldView(scene.solids.nodePsi), x, y, z) < gap;
+  }
+  bool attract(CounterRandom& random, const Eigen::Vector3i& c, float& x, float& y, float& z) const;
 };
 
 /// Draws the point towards a random distance of its own side and says whether it got there.
-bool MarkerSeeder::Side::attract(CounterRandom& random, float& x, float& y, float& z) const {
+bool MarkerSeeder::Side::attract(CounterRandom& random, const Eigen::Vector3i& c, float& x, float& y,
+                                 float& z) const {
   const float goal = nearest + (0.5f - nearest) * static_cast<float>(random.uniform());
   const Eigen::Vector3f top = scene.grid.cells.cast<float>();
   for (int step = 0; step <= kAttractions; ++step) {
-    const ValueAndGradient f = sampleCentredGradient(view, x, y, z);
+    const ValueAndGradient f = slope(c, x, y, z);
     const float here = toCells * f.value;
     if (here >= nearest && here <= band) return true;
     const float gx = toCells * f.gx, gy = toCells * f.gy, gz = toCells * f.gz;
@@ -91,7 +118,7 @@ void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
       int present = 0;
       for (std::int32_t n = start[cell]; n < start[cell + 1]; ++n) {
         if (markers.escaped[n]) continue;
-        const bool strayed = side.depth(markers.x[n], markers.y[n], markers.z[n]) > side.band;
+        const bool strayed = side.depth({i, j, k}, markers.x[n], markers.y[n], markers.z[n]) > side.band;
         if (strayed || room == 0) {
           markers.x[n] = std::numeric_limits<float>::quiet_NaN();
         } else {
@@ -114,8 +141,9 @@ void MarkerSeeder::addMissing(const Side& side, std::int64_t subStep, MarkerSet&
       float x = static_cast<float>(i + random.uniform());
       float y = static_cast<float>(j + random.uniform());
       float z = static_cast<float>(k + random.uniform());
-      if (!side.attract(random, x, y, z) || sorter_.cellNumber(x, y, z) != cell) continue;
-      const float radius = std::clamp(side.depth(x, y, z), side.nearest,
+      if (!side.attract(random, {i, j, k}, x, y, z) || sorter_.cellNumber(x, y, z) != cell) continue;
+      if (side.touchesSolid({i, j, k}, x, y, z)) continue;
+      const float radius = std::clamp(side.depth({i, j, k}, x, y, z), side.nearest,
                                       static_cast<float>(side.scene.params.markerRadiusMax));
       out.append(x, y, z, radius);
       --left;

@@ -21,14 +21,13 @@ void keepAtHome(float side, int count, const float* __restrict value, const std:
 /// Finds the cells of the markers on their own side and counts them there.
 void MarkerShares::findHomes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
                              const MarkerSet& markers) {
-  const FieldView field(phi);
   const float side = static_cast<float>(static_cast<int>(sign));
   home_.resize(markers.size());
   forEachRow(scene.grid.cells, [&](int i, int j) { std::fill_n(&count_(i, j, 0), scene.grid.cells.z(), 0); });
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     MarkerValues values;
     MarkerCells cells;
-    sampleAtMarkers(field, markers, first, last, values);
+    sampleAtMarkers(phi, scene.solids.sides, markers, first, last, values);
     findMarkerCells(count_, markers, first, last, cells);
     keepAtHome(side, static_cast<int>(last - first), values.data(), cells.data(), home_.data() + first);
     for (std::size_t n = first; n < last; ++n)

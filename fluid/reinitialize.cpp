@@ -203,7 +203,55 @@ void Reinitializer::markInterface(const DenseField<float>& phi, const SolidBound
   });
 }
 
+/// Beside walls the surface crosses between cells of the same side alone.
+void Reinitializer::markBesideWalls(const DenseField<float>& phi) {
+  const WallSides& sides = solids_->sides;
+  for (const Eigen::Vector3i& c : sides.cellsByWalls()) {
+    std::uint8_t& mark = layers_.marks()(c);
+    if (mark == LayerList::kBarred) continue;
+    bool crossed = false;
+    for (int a = 0; a < 3; ++a)
+      for (const int side : {-1, 1}) {
+        const Eigen::Vector3i n = c + side * Eigen::Vector3i::Unit(a);
+        if (phi.contains(n.x(), n.y(), n.z()) && sides.sees(c, n)) crossed |= (phi(n) < 0) != (phi(c) < 0);
+      }
+    mark = crossed ? std::uint8_t{0} : LayerList::kUnreached;
+  }
+}
+
+/// Slope along an axis from the middle of a block: across the surface if it crosses there, because beyond the
+/// cells beside it distances by a wall are those to the end of the surface.
+float slopeAcross(const float* p, int step) {
+  const bool above = (p[step] < 0) != (p[0] < 0), below = (p[-step] < 0) != (p[0] < 0);
+  if (above == below) return 0.5f * (p[step] - p[-step]);
+  return above ? p[step] - p[0] : p[0] - p[-step];
+}
+
+/// The closest point of the plane that the values of the cell's own side make.
+Reinitializer::Seed Reinitializer::findSeedBesideWall(const DenseField<float>& phi,
+                                                      const Eigen::Vector3i& cell) const {
+  WallSides::Block block = solids_->sides.read(phi, cell);
+  const float* p = &block[WallSides::kCentre];
+  const Eigen::Vector3f gradient(slopeAcross(p, 9), slopeAcross(p, 3), slopeAcross(p, 1));
+  const Crossing crossing = nearestCrossing(p, {9, 3, 1});
+  const Eigen::Vector3f centre = cell.cast<float>();
+  const float slope = gradient.norm();
+  Seed seed{};
+  Eigen::Vector3f at = centre;
+  if (slope > 0 && std::abs(p[0]) <= kCrossingSlack * crossing.distance * slope) {
+    const Eigen::Vector3f normal = gradient / slope;
+    at -= p[0] / slope * normal;
+    seed.nx = normal.x(), seed.ny = normal.y(), seed.nz = normal.z();
+    seed.reach = kPatch;
+  } else if (crossing.distance <= 1) {
+    at[crossing.axis] += crossing.direction * crossing.distance;
+  }
+  seed.x = at.x(), seed.y = at.y(), seed.z = at.z();
+  return seed;
+}
+
 Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const {
+  if (solids_ && solids_->sides.guard(cell) & WallSides::kByWall) return findSeedBesideWall(phi, cell);
   const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
   const float* p = &phi(cell);
   const Eigen::Vector3f centre = cell.cast<float>();
@@ -298,7 +346,9 @@ void Reinitializer::measure(DenseField<float>& phi) const {
 }
 
 void Reinitializer::apply(DenseField<float>& phi, const SolidBoundary* solids) {
+  solids_ = solids;
   markInterface(phi, solids);
+  if (solids) markBesideWalls(phi);
   layers_.grow(kLayers);
   markKinks(phi, kinks_);
   plantSeeds(phi);

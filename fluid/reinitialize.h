@@ -32,12 +32,15 @@ class Reinitializer {
     float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
   };
   Seed findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
+  Seed findSeedBesideWall(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
+  void markBesideWalls(const DenseField<float>& phi);
   void markInterface(const DenseField<float>& phi, const SolidBoundary* solids);
   void plantSeeds(const DenseField<float>& phi);
   void spreadLayer(int layer, bool outwardsOnly);
   void measure(DenseField<float>& phi) const;
 
   GridSpec grid_;
+  const SolidBoundary* solids_ = nullptr;  ///< of the call under way
   LayerList layers_;
   DenseField<std::uint8_t> kinks_;
   std::vector<Seed> seeds_;  ///< of the cells of layer 0, in their order

@@ -153,7 +153,24 @@ void measure(const GridSpec& grid, const std::vector<SolidObject>& solids, doubl
   openFaces(boundary);
   measureCells(grid, boundary);
   closeSplitCells(grid.cells, boundary);
+  if (!solids.empty()) boundary.sides.find(boundary);
   moveFaces(grid, solids, t, boundary);
+}
+
+/// Distances to the moving solids and their velocities at the corners of the grid: no rigid motion keeps them
+/// all.
+std::vector<double> poseOf(const GridSpec& grid, const std::vector<SolidObject>& solids, double t) {
+  std::vector<double> pose;
+  for (const SolidObject& solid : solids) {
+    if (!solid.moves) continue;
+    for (int n = 0; n < 8; ++n) {
+      const Eigen::Vector3d side(n & 1, n >> 1 & 1, n >> 2);
+      const Eigen::Vector3d x = grid.origin + side.cwiseProduct(grid.upper() - grid.origin);
+      const Eigen::Vector3d u = solid.velocity(x, t);
+      pose.insert(pose.end(), {solid.psi(x, t), u.x(), u.y(), u.z()});
+    }
+  }
+  return pose;
 }
 
 }  // namespace
@@ -169,6 +186,8 @@ SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
   boundary.velocity = MacField<float>(grid.cells);
   boundary.prescribed = MacField<std::uint8_t>(grid.cells);
   boundary.cellFraction = DenseField<float>(grid.cells);
+  boundary.shut = DenseField<std::uint8_t>(grid.cells);
+  boundary.cellEdge = static_cast<float>(grid.dx);
 
   const Snapshot resting(solids, false, t);
   sampleNodes(grid, resting, boundary.restNodePsi);
@@ -178,10 +197,14 @@ SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
   return boundary;
 }
 
-void updateSolidBoundary(const GridSpec& grid, const DomainWalls&, const std::vector<SolidObject>& solids,
+bool updateSolidBoundary(const GridSpec& grid, const DomainWalls&, const std::vector<SolidObject>& solids,
                          double t, SolidBoundary& boundary) {
-  if (std::none_of(solids.begin(), solids.end(), [](const SolidObject& s) { return s.moves; })) return;
+  if (std::none_of(solids.begin(), solids.end(), [](const SolidObject& s) { return s.moves; })) return false;
+  std::vector<double> pose = poseOf(grid, solids, t);
+  if (pose == boundary.pose) return false;
+  boundary.pose = std::move(pose);
   measure(grid, solids, t, boundary);
+  return true;
 }
 
 double fastestSolid(const GridSpec& grid, const std::vector<SolidObject>& solids,

@@ -9,6 +9,7 @@
 
 #include "fluid/dense_field.h"
 #include "fluid/grid_spec.h"
+#include "fluid/wall_sides.h"
 
 namespace spume::fluid {
 
@@ -38,6 +39,7 @@ inline constexpr float kMinOpenFraction = 1e-3f;
 /// open ones open = 1 (less what a solid covers), with air at p = 0 outside.
 struct SolidBoundary {
   DomainWalls walls;
+  float cellEdge = 0;     ///< [m]
   DenseField<float> psi;  ///< distance to the nearest solid or closed wall at cell centres [m], ghosts
                           ///< included, > 0 in free space
   DenseField<std::int16_t>
@@ -48,6 +50,12 @@ struct SolidBoundary {
   MacField<std::uint8_t> prescribed;  ///< 1 where an inflow sets the face velocity (open is 0 there)
   DenseField<float>
       cellFraction;  ///< free-space volume fraction of each cell, 0..1 (of the space, not the liquid)
+
+  DenseField<std::uint8_t> shut;  ///< corners of a split cell that are not on the side it keeps, as bits
+  WallSides sides;                ///< which cells are on the same side of thin walls
+
+  std::vector<double>
+      pose;  ///< distances and speeds of the moving solids at a few points: tells if they moved
 
   DenseField<float> nodePsi;  ///< distance to the nearest solid at cell corners [m]; domain walls left out
   DenseField<float> restNodePsi;  ///< the same of the solids at rest alone: what an update starts from
@@ -69,7 +77,8 @@ SolidBoundary buildSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
 
 /// Re-evaluates the moving solids at time t, in place; does nothing where none moves. Faces it rewrites lose
 /// their `prescribed` mark: stamp the inflows afterwards.
-void updateSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
+/// Returns false if no solid has moved or turned since the last update, nor does now: then nothing is done.
+bool updateSolidBoundary(const GridSpec& grid, const DomainWalls& walls,
                          const std::vector<SolidObject>& solids, double t, SolidBoundary& boundary);
 
 /// Largest speed [m/s] of the surfaces of moving solids at time t, near where `boundary` has them.

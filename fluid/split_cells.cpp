@@ -91,7 +91,7 @@ void narrowCell(int i, int j, int k, int shut, SolidBoundary& boundary) {
 }  // namespace
 
 void closeSplitCells(const Eigen::Vector3i& cells, SolidBoundary& boundary) {
-  DenseField<std::uint8_t> shut(cells);
+  DenseField<std::uint8_t>& shut = boundary.shut;
   forEachCell(
       cells, [&](int i, int j, int k) { shut(i, j, k) = shutCorners(cornersOf(boundary.nodePsi, i, j, k)); });
   for (int a = 0; a < 3; ++a)

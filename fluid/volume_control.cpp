@@ -22,9 +22,19 @@ constexpr double kLargestError = 0.5;
 // How far from its place a lost body's heir, or a bubble's liquid, is looked for [cells].
 constexpr int kNearby = 4;
 
-/// Label with the largest volume within `reach` cells of a point, else -1.
-std::int32_t largestNear(const GridSpec& grid, const DenseField<std::int32_t>& label,
-                         const std::vector<LiquidBody>& bodies, const Eigen::Vector3d& x, int reach) {
+/// True if a straight way of open faces joins two cells, or no thin wall is near the first.
+bool seesCell(const SolidBoundary* solids, const Eigen::Vector3i& from, const Eigen::Vector3i& to) {
+  if (!solids || !(solids->sides.guard(from) & WallSides::kInReach)) return true;
+  const auto middle = [](const Eigen::Vector3i& c) -> Eigen::Vector3f {
+    return c.cast<float>() + Eigen::Vector3f::Constant(0.5f);
+  };
+  return walkThroughFaces(*solids, from, middle(from), middle(to)).cell == to;
+}
+
+/// Label with the largest volume within `reach` cells of a point, on its side of thin walls, else -1.
+std::int32_t largestNear(const GridSpec& grid, const SolidBoundary* solids,
+                         const DenseField<std::int32_t>& label, const std::vector<LiquidBody>& bodies,
+                         const Eigen::Vector3d& x, int reach) {
   const Eigen::Vector3i centre = grid.toCells(x).array().floor().cast<int>();
   const Eigen::Vector3i low = (centre.array() - reach).max(0);
   const Eigen::Vector3i high = (centre.array() + reach).min(grid.cells.array() - 1);
@@ -33,7 +43,8 @@ std::int32_t largestNear(const GridSpec& grid, const DenseField<std::int32_t>& l
     for (int j = low.y(); j <= high.y(); ++j)
       for (int k = low.z(); k <= high.z(); ++k) {
         const std::int32_t n = label(i, j, k);
-        if (n >= 0 && (best < 0 || bodies[n].volume > bodies[best].volume)) best = n;
+        if (n < 0 || n == best || (best >= 0 && bodies[n].volume <= bodies[best].volume)) continue;
+        if (seesCell(solids, centre.cwiseMax(low).cwiseMin(high), {i, j, k})) best = n;
       }
   return best;
 }
@@ -48,8 +59,9 @@ std::int32_t largest(const std::vector<LiquidBody>& bodies) {
 
 }  // namespace
 
-VolumeControl::VolumeControl(const GridSpec& grid, const FluidParams& params)
+VolumeControl::VolumeControl(const GridSpec& grid, const FluidParams& params, const SolidBoundary* solids)
     : grid_(grid),
+      solids_(solids),
       relaxationTime_(params.volumeControlTime),
       lastLabel_(grid.cells, -1),
       links_(grid.cells.x()) {}
@@ -112,7 +124,7 @@ double VolumeControl::bookDrained(const Eigen::Vector3i& cell, double volume) {
 }
 
 std::int32_t VolumeControl::lastBodyNear(const Eigen::Vector3d& x) const {
-  const std::int32_t near = largestNear(grid_, lastLabel_, lastBodies_, x, kNearby);
+  const std::int32_t near = largestNear(grid_, solids_, lastLabel_, lastBodies_, x, kNearby);
   return near >= 0 ? near : largest(lastBodies_);
 }
 
@@ -141,8 +153,10 @@ void VolumeControl::traceBack(const LiquidBodies& bodies, const MacVelocity& vel
                                    velocity[2](i, j, k) + velocity[2](i, j, k + 1));
         const Eigen::Vector3i from =
             Eigen::Vector3i(i, j, k) - (steps * move).array().round().matrix().cast<int>();
-        const std::int32_t old = lastLabel_(from.cwiseMax(0).cwiseMin(last));
+        const Eigen::Vector3i source = from.cwiseMax(0).cwiseMin(last);
+        const std::int32_t old = lastLabel_(source);
         if (old < 0 || (!links.empty() && links.back() == std::pair(body, old))) continue;
+        if (!seesCell(solids_, {i, j, k}, source)) continue;
         links.emplace_back(body, old);
       }
     std::sort(links.begin(), links.end());
@@ -179,8 +193,8 @@ void VolumeControl::findGroups(const LiquidBodies& bodies) {
     if (linked[n]) continue;
     const bool isNew = n < now;
     const Eigen::Vector3d& place = isNew ? bodies.bodies[n].centroid : lastBodies_[n - now].centroid;
-    std::int32_t heir = isNew ? largestNear(grid_, lastLabel_, lastBodies_, place, kNearby)
-                              : largestNear(grid_, bodies.label, bodies.bodies, place, kNearby);
+    std::int32_t heir = isNew ? largestNear(grid_, solids_, lastLabel_, lastBodies_, place, kNearby)
+                              : largestNear(grid_, solids_, bodies.label, bodies.bodies, place, kNearby);
     if (heir < 0) heir = isNew ? largest(lastBodies_) : largest(bodies.bodies);
     if (heir >= 0) unite(n, isNew ? now + heir : heir);
   }
@@ -191,8 +205,8 @@ void VolumeControl::bookGas(const LiquidBodies& bodies, const ImmersedGas& gas) 
   gasBody_.resize(gas.volume.size());
   tbb::parallel_for(std::size_t{0}, gas.volume.size(), [&](std::size_t b) {
     std::int32_t& body = gasBody_[b];
-    body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], 0);
-    if (body < 0) body = largestNear(grid_, bodies.label, bodies.bodies, gas.position[b], kNearby);
+    body = largestNear(grid_, solids_, bodies.label, bodies.bodies, gas.position[b], 0);
+    if (body < 0) body = largestNear(grid_, solids_, bodies.label, bodies.bodies, gas.position[b], kNearby);
   });
   for (std::size_t b = 0; b < gas.volume.size(); ++b)
     if (gasBody_[b] >= 0) gas_[gasBody_[b]] += gas.volume[b];

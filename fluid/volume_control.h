@@ -24,7 +24,8 @@ struct ImmersedGas;
 /// Per sub-step: bookOutflow (before phi is advected) -> withdraw, deposit -> update -> addSource.
 class VolumeControl {
  public:
-  VolumeControl(const GridSpec& grid, const FluidParams& params);
+  /// With `solids`, which must outlive it, no volume changes its side of a thin wall.
+  VolumeControl(const GridSpec& grid, const FluidParams& params, const SolidBoundary* solids = nullptr);
 
   /// Starts with every body of `bodies` at its target.
   void start(const LiquidBodies& bodies);
@@ -81,6 +82,7 @@ class VolumeControl {
   void unite(std::int32_t a, std::int32_t b);
 
   GridSpec grid_;
+  const SolidBoundary* solids_;
   double relaxationTime_;  // [s]
   VolumeLedger ledger_;
   DenseField<std::int32_t> lastLabel_;

@@ -76,6 +76,12 @@ TEST(SceneLint, OverfullAndEmptyDomainsAreFound) {
   EXPECT_TRUE(mentions(lintScene(scene), "scene", "no liquid"));
 }
 
+TEST(SceneLint, ADomainWithoutAirIsFound) {
+  Scene scene = pouring();
+  scene.liquidBodies[0].shape.upper.setConstant(1);
+  EXPECT_TRUE(mentions(lintScene(scene), "domain", "full of liquid"));
+}
+
 TEST(SceneVolumes, PouredVolumeIsTheIntegralOfTheFlux) {
   Scene scene = pouring();
   scene.inflows[0].speed.keys = {{1, 0}, {3, 1}};

@@ -133,7 +133,7 @@ TEST(MarkerCorrection, LeavesAConsistentSurfaceAlone) {
   pool.seed();
   DenseField<float> phi = pool.phi;
   MarkerCorrection correction;
-  correction.apply(static_cast<float>(pool.grid.dx), pool.positive, pool.negative, phi);
+  correction.apply(static_cast<float>(pool.grid.dx), pool.solids.sides, pool.positive, pool.negative, phi);
   EXPECT_EQ(correction.escapedCount(), 0u);
   EXPECT_TRUE(sameBits(phi, pool.phi));
 }
@@ -146,7 +146,7 @@ TEST(MarkerCorrection, BringsBackASurfaceThatWasMovedAway) {
     DenseField<float> phi =
         levelSet(pool.grid, [&](const auto& x) { return sphere(x) - shift * pool.grid.dx; });
     MarkerCorrection correction;
-    correction.apply(static_cast<float>(pool.grid.dx), pool.positive, pool.negative, phi);
+    correction.apply(static_cast<float>(pool.grid.dx), pool.solids.sides, pool.positive, pool.negative, phi);
     double sum = 0;
     int cells = 0;
     forEachInner(pool.grid.cells, 0, [&](int i, int j, int k) {

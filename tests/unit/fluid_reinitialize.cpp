@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fluid/reinitialize.h"
+#include "fluid/solid_extension.h"
 #include "tests/support/fluid_fields.h"
 
 namespace spume::fluid {
@@ -120,7 +121,7 @@ TEST(Reinitializer, CarriesNoDistanceThroughASolid) {
       false};
   const SolidBoundary solids = buildSolidBoundary(grid, openWalls(), {wall}, 0);
   SolidExtension extension;
-  extension.rebuild(grid, solids);
+  extension.rebuild(solids);
   DenseField<float> phi = levelSet(grid, [](const auto& x) { return x.x() < 0.5 ? -1.0 : 1.0; });
   extension.apply(phi);
   Reinitializer(grid).apply(phi, &solids);
