@@ -33,6 +33,9 @@ constexpr float kKinkPatch = 0.75f;
 /// A cell beside the surface whose value is a distance to within this keeps it [cells]: made a distance again
 /// and again the interpolant's error would creep, for a sphere of radius 3 by 0.07 % of its volume each time.
 constexpr float kSameDistance = 3e-3f;
+/// Any cell keeps a value that differs by no more than the round-off of a seed's place in a grid of 1024
+/// [cells]: a level surface then stays level to the bit beside walls, too.
+constexpr float kSamePlace = 6e-5f;
 /// Cells of a layer handled by one task at least.
 constexpr std::size_t kCellGrain = 256;
 
@@ -339,7 +342,7 @@ void Reinitializer::measure(DenseField<float>& phi) const {
         const Seed& s = seeds_[seedOf[k]];
         distance = std::min(patchDistance(s, i - s.x, j - s.y, k - s.z), band);
       }
-      if (mark[k] == 0 && std::abs(std::abs(p[k]) - dx * distance) < same) continue;
+      if (std::abs(std::abs(p[k]) - dx * distance) < (mark[k] == 0 ? same : kSamePlace * dx)) continue;
       p[k] = p[k] < 0 ? -dx * distance : dx * distance;
     }
   });
