@@ -126,7 +126,8 @@ void Study::reseed() {
 
 void Study::correct() {
   if (options.markers)
-    correction.apply(static_cast<float>(state.grid.dx), solids.sides, state.positive, state.negative, state.phi);
+    correction.apply(static_cast<float>(state.grid.dx), solids.sides, state.positive, state.negative,
+                     state.phi);
 }
 
 void Study::step(double t, double dt) {
