@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kEdge = 0.12, kDepth = 0.062;  // [m]
 constexpr double kStep = 0.01;                  // [s]
-/// Relative to the pool: volume control follows the level set's losses with a delay of 10 ms.
+/// Relative to the pool: volume control follows sudden losses with the delay of its relaxation.
 constexpr double kVolumeTolerance = 0.01;
 
 /// A pool of 32^3 cells with a ball that moves through it at 5 cm/s, never nearer than 4 cells to the
