@@ -5,13 +5,14 @@
 #include <random>
 
 #include "coupling/scene_builder.h"
-#include "coupling/shapes.h"
 #include "coupling/simulation.h"
-#include "coupling/solid_motion.h"
-#include "fluid/level_set.h"
+#include "tests/support/vessel_shares.h"
 
 namespace spume::coupling {
 namespace {
+
+using test::Shares;
+using test::sharesOf;
 
 constexpr int kResolution = 32;
 constexpr double kEdge = 0.12;  // [m]
@@ -44,27 +45,6 @@ void fillMug(Scene& scene, double depth) {
   water.vessel = "mug";
   water.depth = depth;
   scene.liquidBodies.push_back(water);
-}
-
-/// Liquid in the room of the mug, up to the middle of its wall, and outside it [m^3].
-struct Shares {
-  double in = 0, out = 0;
-};
-Shares sharesOf(const Simulation& simulation) {
-  const SolidSpec& mug = simulation.scene().solids[0];
-  const Pose pose = poseAt(mug.motion, simulation.liquid().time);
-  const fluid::GridSpec& grid = simulation.liquid().grid;
-  fluid::DenseField<float> fraction(grid.cells);
-  fluid::computeLiquidFraction(simulation.liquid().phi, simulation.solids(), static_cast<float>(grid.dx),
-                               fraction);
-  Shares shares;
-  for (int i = 0; i < grid.cells.x(); ++i)
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k) {
-        const bool inside = roomInVessel(mug.shape, pose.toPlaced(grid.cellCentre(i, j, k))) < 0;
-        (inside ? shares.in : shares.out) += fraction(i, j, k) * grid.cellVolume();
-      }
-  return shares;
 }
 
 struct Outcome {

@@ -4,13 +4,14 @@
 
 #include "coupling/scene_builder.h"
 #include "coupling/scene_toml.h"
-#include "coupling/shapes.h"
 #include "coupling/simulation.h"
-#include "coupling/solid_motion.h"
-#include "fluid/level_set.h"
+#include "tests/support/vessel_shares.h"
 
 namespace spume::coupling {
 namespace {
+
+using test::Shares;
+using test::sharesOf;
 
 constexpr double kFilled = 1.9;        // [s] the jet has stopped and the water is nearly level
 constexpr double kBeforeTheRim = 2.2;  // [s] the glass is turned by 14 degrees: the water is below its rim
@@ -27,30 +28,6 @@ constexpr double kLeftInside = 0.1;
 /// glass.toml with cells as wide as the glass is thick.
 Scene coarseGlass() {
   return readScene(std::string(SPUME_SOURCE_DIR) + "/data/scenes/glass.toml", {{"domain.resolution", "40"}});
-}
-
-struct Shares {
-  double in = 0, out = 0;
-};
-
-/// Liquid in the glass, up to the height of its rim and the middle of its wall, and elsewhere [m^3].
-Shares sharesOf(const Simulation& simulation) {
-  const SolidSpec& glass = simulation.scene().solids[0];
-  const Pose pose = poseAt(glass.motion, simulation.liquid().time);
-  const fluid::GridSpec& grid = simulation.liquid().grid;
-  const double rim = glass.shape.centre.y() + glass.shape.innerHeight;
-  fluid::DenseField<float> fraction(grid.cells);
-  fluid::computeLiquidFraction(simulation.liquid().phi, simulation.solids(), static_cast<float>(grid.dx),
-                               fraction);
-  Shares shares;
-  for (int i = 0; i < grid.cells.x(); ++i)
-    for (int j = 0; j < grid.cells.y(); ++j)
-      for (int k = 0; k < grid.cells.z(); ++k) {
-        const Eigen::Vector3d x = pose.toPlaced(grid.cellCentre(i, j, k));
-        const bool inside = roomInVessel(glass.shape, x) < 0 && x.y() < rim;
-        (inside ? shares.in : shares.out) += fraction(i, j, k) * grid.cellVolume();
-      }
-  return shares;
 }
 
 TEST(Glass, IsFilledHoldsItsWaterAndPoursItOverTheRim) {
