@@ -13,6 +13,8 @@ namespace {
 
 // Largest residual over its diagonal, relative to the largest speed: below the rounding of float velocities.
 constexpr double kTolerance = 1e-8;
+// A cell with less liquid than this counts as air: faces of next to no mass spoil the matrix.
+constexpr float kLeastFraction = 0.05f;
 // A cavity of 1000 cells across would take as many iterations at infinite viscosity.
 constexpr int kMostIterations = 2000;
 // A domain wall lies half a cell from the faces beside it: its shear is twice that over a whole cell.
@@ -72,6 +74,11 @@ bool Viscosity::isHeld(const SolidBoundary& boundary, int axis, const Eigen::Vec
   return boundary.prescribed[axis](face) != 0 || !(boundary.open[axis](face) > 0);
 }
 
+/// Whether a face inside the grid carries no liquid and is not held.
+bool Viscosity::isDry(int axis, const Eigen::Vector3i& face) const {
+  return mass_[axis].contains(face.x(), face.y(), face.z()) && mass_[axis](face) == 0;
+}
+
 /// W of the edge along the third axis at the low corner of cell c across a and b.
 float Viscosity::edgeWeight(const SolidBoundary& boundary, int a, int b, const Eigen::Vector3i& c) const {
   float scale = 1;
@@ -85,6 +92,7 @@ float Viscosity::edgeWeight(const SolidBoundary& boundary, int a, int b, const E
       (isHeld(boundary, a, c) || isHeld(boundary, a, lb) || isHeld(boundary, b, c) ||
        isHeld(boundary, b, la)))
     return 0;
+  if (isDry(a, c) || isDry(a, lb) || isDry(b, c) || isDry(b, la)) return 0;
   return scale * 0.25f * (fraction_(c) + fraction_(la) + fraction_(lb) + fraction_(la - unit(b)));
 }
 
@@ -93,20 +101,21 @@ void Viscosity::weigh(const DenseField<float>& phi, const SolidBoundary& boundar
   const Eigen::Vector3i top = grid_.cells - Eigen::Vector3i::Ones();
   forEachCell(grid_.cells + Eigen::Vector3i::Constant(2), [&](int i, int j, int k) {
     const Eigen::Vector3i c(i - 1, j - 1, k - 1), from = c.cwiseMax(0).cwiseMin(top);
-    fraction_(c) = liquidFractionOfCell(phi, dx, from.x(), from.y(), from.z());
+    const float liquid = liquidFractionOfCell(phi, dx, from.x(), from.y(), from.z());
+    fraction_(c) = liquid < kLeastFraction ? 0 : liquid;
   });
-  for (int along = 0; along < 3; ++along) {
-    const int a = (along + 1) % 3, b = (along + 2) % 3;
-    forEachCell(shear_[along].size(), [&](int i, int j, int k) {
-      shear_[along](i, j, k) = edgeWeight(boundary, std::min(a, b), std::max(a, b), {i, j, k});
-    });
-  }
   for (int a = 0; a < 3; ++a)
     forEachCell(mass_[a].size(), [&](int i, int j, int k) {
       const Eigen::Vector3i c(i, j, k);
       const float both = 0.5f * (fraction_(c) + fraction_(c - unit(a)));
       mass_[a](c) = isHeld(boundary, a, c) ? -1 : both;  // -1 until invertDiagonal
     });
+  for (int along = 0; along < 3; ++along) {
+    const int a = (along + 1) % 3, b = (along + 2) % 3;
+    forEachCell(shear_[along].size(), [&](int i, int j, int k) {
+      shear_[along](i, j, k) = edgeWeight(boundary, std::min(a, b), std::max(a, b), {i, j, k});
+    });
+  }
 }
 
 /// 1/diagonal of the faces to solve for: those neither held nor without any liquid around.

@@ -15,8 +15,10 @@ namespace spume::fluid {
 /// e the rate of strain, m and W the liquid fractions of the control volumes. So the surface is free of
 /// traction and rigid motion is free of stress, which a Laplacian of each component is not: it would damp
 /// waves at half their rate. Solids and inflows hold their faces; walls of the domain stand between faces.
-/// Deviation: fractions come from the liquid fractions of cells instead of super-sampling, and a solid inside
-/// the domain stands where its nearest closed face is: first order in dx there.
+/// Deviations: fractions come from the liquid fractions of cells instead of super-sampling, and a solid
+/// inside the domain stands where its nearest closed face is: first order in dx there. Faces without liquid
+/// are not solved for: they would follow so that the shear around them vanishes, so that shear is left out at
+/// once. With them a drop of 24 cells across takes 500 iterations instead of a dozen.
 class Viscosity {
  public:
   Viscosity(const GridSpec& grid, const FluidParams& params);
@@ -33,6 +35,7 @@ class Viscosity {
   void weigh(const DenseField<float>& phi, const SolidBoundary& boundary);
   void weighFaces(const SolidBoundary& boundary);
   float edgeWeight(const SolidBoundary& boundary, int a, int b, const Eigen::Vector3i& c) const;
+  bool isDry(int axis, const Eigen::Vector3i& face) const;
   bool isHeld(const SolidBoundary& boundary, int axis, const Eigen::Vector3i& face) const;
   double solve(double tolerance, double k);
   void multiply(const Vector& x, double k, Vector& y) const;

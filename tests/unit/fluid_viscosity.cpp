@@ -53,6 +53,21 @@ TEST(Viscosity, AChannelDecaysAtTheDiscreteRate) {
   });
 }
 
+/// No face carries less than half a twentieth of a cell, so with k = nu dt/dx^2 = 0.01 Gershgorin's circles
+/// bound the condition of the matrix by 1 + 32 k/0.025 = 14: log(2/1e-8)/2 sqrt(14) = 36 iterations.
+TEST(Viscosity, FacesOfNextToNoLiquidDoNotSpoilTheSolve) {
+  Stage stage(32, closedWalls(), 0.01 / (kDt * 32 * 32));
+  const Eigen::Vector3d centre(0.51, 0.49, 0.503);
+  const DenseField<float> phi =
+      levelSet(stage.grid, [&](const auto& x) { return (x - centre).norm() - 0.37; });
+  MacVelocity u = macField(stage.grid, [](const auto& x) {
+    return Eigen::Vector3d(std::sin(40 * x.y()), std::cos(50 * x.z()), std::sin(60 * x.x()));
+  });
+  Viscosity viscosity(stage.grid, stage.params);
+  viscosity.apply(phi, stage.solids, kDt, u);
+  EXPECT_LE(viscosity.iterations(), 36);
+}
+
 /// With free slip the vortex sin(pi x) cos(pi y) keeps its shape between walls: sum of two such eigenvalues.
 TEST(Viscosity, AVortexBetweenSlippingWallsDecaysAtTheDiscreteRate) {
   Stage stage(16, closedWalls(), 0.1);
