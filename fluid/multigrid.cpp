@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fluid/plane_pipeline.h"
 #include "fluid/pressure_rows.h"
 
 namespace spume::fluid {
@@ -15,7 +16,7 @@ constexpr int kCoarsestSweeps = 6;
 // for the tank of performance.md at 64^3 and 128^3, these 7 and 10, in three quarters of the time; more gain
 // nothing.
 constexpr int kFineSweeps = 2, kCoarseSweeps = 3;
-// Cells of a coarse row restricted at once: their children's residuals stay in the first-level cache.
+// Cells of a row handled at once: what is made of them on the way stays in the first-level cache.
 constexpr int kPiece = 128;
 
 /// One coarse weight or excess: half the sum of the fine values at the given offsets.
@@ -38,24 +39,35 @@ float halfSum(const DenseField<float>& fine, const Eigen::Vector3i& at,
   }
 }
 
-/// Gauss-Seidel sweep over the cells of one parity of a row that begins at offset `at`. All are computed and
-/// those of the other parity kept as they were, so that the loop vectorises; the new values depend on these
-/// alone. `before` and `after` are the same row: two names, or the compiler carries values from one cell to
-/// the next.
-[[gnu::noinline]] void relaxRow(const PressureMatrix& m, std::ptrdiff_t at, int parity, int count,
-                                const float* rhs, const float* before, float* after) {
+/// Gauss-Seidel sweep over the cells of one parity of a piece of a row that begins at offset `at`. All are
+/// computed and those of the other parity kept as they were, so that the loop vectorises; the new values
+/// depend on these alone. They go to another place: written back at once they would be read again by the next
+/// few cells before the processor has them in order.
+[[gnu::noinline]] void relaxPiece(const PressureMatrix& m, std::ptrdiff_t at, int parity, int count,
+                                  const float* __restrict rhs, const float* __restrict before,
+                                  float* __restrict after) {
   const auto si = m.excess.stride(0), sj = m.excess.stride(1);
-  const float* wx = m.weight[0].data() + at;
-  const float* wy = m.weight[1].data() + at;
-  const float* wz = m.weight[2].data() + at;
-  const float* inverse = m.inverseDiagonal.data() + at;
-#pragma GCC ivdep
+  const float* __restrict wx = m.weight[0].data() + at;
+  const float* __restrict wy = m.weight[1].data() + at;
+  const float* __restrict wz = m.weight[2].data() + at;
+  const float* __restrict inverse = m.inverseDiagonal.data() + at;
   for (int k = 0; k < count; ++k) {
     const float relaxed =
         inverse[k] * (rhs[k] + wx[k] * before[k - si] + wx[k + si] * before[k + si] + wy[k] * before[k - sj] +
                       wy[k + sj] * before[k + sj] + wz[k] * before[k - 1] + wz[k + 1] * before[k + 1]);
     const float kept = before[k];
     after[k] = ((k ^ parity) & 1) == 0 ? relaxed : kept;
+  }
+}
+
+/// The same for a whole row, in place.
+void relaxRow(const PressureMatrix& m, std::ptrdiff_t at, int parity, int count, const float* rhs, float* x) {
+  alignas(64) float relaxed[kPiece];
+  static_assert(kPiece % 2 == 0, "all pieces begin with the same parity");
+  for (int k = 0; k < count; k += kPiece) {
+    const int length = std::min(kPiece, count - k);
+    relaxPiece(m, at + k, parity, length, rhs + k, x + k, relaxed);
+    std::copy_n(relaxed, length, x + k);
   }
 }
 
@@ -105,6 +117,15 @@ void Multigrid::coarsen() {
     aggregate(levels_[n - 1].matrix, levels_[n].matrix);
     levels_[n].matrix.finish();
   }
+  for (Level& level : levels_) findPlanes(level);
+}
+
+void Multigrid::findPlanes(Level& level) {
+  const std::vector<ActiveRow>& rows = level.matrix.rows;
+  level.planeStart.assign(level.matrix.cells().x() + 1, static_cast<int>(rows.size()));
+  for (int n = static_cast<int>(rows.size()) - 1; n >= 0; --n) level.planeStart[rows[n].i] = n;
+  for (std::size_t i = level.planeStart.size() - 1; i-- > 0;)  // planes without rows
+    level.planeStart[i] = std::min(level.planeStart[i], level.planeStart[i + 1]);
 }
 
 void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
@@ -122,35 +143,42 @@ void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
 }
 
 void Multigrid::cycle(std::size_t depth) {
-  constexpr int kRed = 0, kBlack = 1;
   Level& level = levels_[depth];
   const int sweeps = depth + 1 == levels_.size() ? kCoarsestSweeps : depth == 0 ? kFineSweeps : kCoarseSweeps;
-  startSmooth(level);
-  smooth(level, kBlack);
-  for (int n = 1; n < sweeps; ++n) smooth(level, kRed), smooth(level, kBlack);
+  smooth(level, sweeps, true);
   if (depth + 1 < levels_.size()) {
     restrictResidual(level, levels_[depth + 1]);
     cycle(depth + 1);
     addCorrection(levels_[depth + 1], level);
   }
-  for (int n = 0; n < sweeps; ++n) smooth(level, kBlack), smooth(level, kRed);
+  smooth(level, sweeps, false);
 }
 
-/// The first red sweep from x = 0.
-void Multigrid::startSmooth(Level& level) {
-  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
-    startPiece(&level.matrix.inverseDiagonal(row.i, row.j, row.begin), &level.rhs(row.i, row.j, row.begin),
-               (row.i + row.j + row.begin) & 1, row.end - row.begin, &level.x(row.i, row.j, row.begin));
-  });
+/// Double sweeps: from x = 0 red first, else black first.
+void Multigrid::smooth(Level& level, int sweeps, bool fromZero) {
+  const int first = fromZero ? 0 : 1, stages = 2 * sweeps, planes = level.matrix.cells().x();
+  const auto relax = [&](int stage, int plane) {
+    relaxPlane(level, plane, (first + stage) & 1, fromZero && stage == 0);
+  };
+  if (static_cast<int>(level.matrix.rows.size()) > 2 * kRowChunk)
+    return pipelinePlanes(stages, planes, relax);
+  for (int stage = 0; stage < stages; ++stage)
+    for (int plane = 0; plane < planes; ++plane) relax(stage, plane);
 }
 
-void Multigrid::smooth(Level& level, int colour) {
-  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
+/// Sweep of one colour over a plane; from x = 0 the other one is set to 0.
+void Multigrid::relaxPlane(Level& level, int plane, int colour, bool fromZero) {
+  for (int n = level.planeStart[plane]; n < level.planeStart[plane + 1]; ++n) {
+    const ActiveRow& row = level.matrix.rows[n];
     const auto at = level.matrix.excess.index(row.i, row.j, row.begin);
+    const int parity = (row.i + row.j + row.begin + colour) & 1, count = row.end - row.begin;
+    const float* rhs = level.rhs.data() + at;
     float* x = level.x.data() + at;
-    relaxRow(level.matrix, at, (row.i + row.j + row.begin + colour) & 1, row.end - row.begin,
-             level.rhs.data() + at, x, x);
-  });
+    if (fromZero)
+      startPiece(level.matrix.inverseDiagonal.data() + at, rhs, parity, count, x);
+    else
+      relaxRow(level.matrix, at, parity, count, rhs, x);
+  }
 }
 
 void Multigrid::restrictResidual(const Level& fine, Level& coarse) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <random>
@@ -58,6 +59,20 @@ TEST(Multigrid, CycleIsSymmetricAndPositive) {
   const double scale = std::sqrt(dot(x, mx) * dot(y, my));
   EXPECT_GT(dot(x, mx), 0);
   EXPECT_NEAR(dot(x, my) / scale, dot(y, mx) / scale, 1e-6);  // float round-off over 13,680 terms
+}
+
+TEST(Multigrid, CycleIsTheSameToTheBitForAnyNumberOfThreads) {
+  const Eigen::Vector3i cells(61, 24, 30);
+  Multigrid multigrid(cells);
+  fillRandom(multigrid.finest(), 6);
+  multigrid.coarsen();
+  multigrid.rightHandSide() = randomField(cells, 7);
+  tbb::task_arena(1).execute([&] { multigrid.cycle(); });
+  const DenseField<float> alone = multigrid.solution();
+  tbb::task_arena(5).execute([&] { multigrid.cycle(); });
+  for (int i = 0; i < cells.x(); ++i)
+    for (int j = 0; j < cells.y(); ++j)
+      for (int k = 0; k < cells.z(); ++k) ASSERT_EQ(alone(i, j, k), multigrid.solution()(i, j, k));
 }
 
 TEST(Multigrid, MatrixOfConstantsIsTheExcess) {
