@@ -1,5 +1,7 @@
 #include "fluid/drops.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -122,10 +124,14 @@ std::vector<Drop> Drops::launch(const MarkerScene& scene, const DenseField<float
 
 DropFlight fly(const MarkerScene& scene, const DenseField<float>& phi, double dt, std::vector<Drop>& drops) {
   const FieldView psi(scene.solids.psi);
+  std::vector<Fate> fates(drops.size());
+  tbb::parallel_for(std::size_t{0}, drops.size(),
+                    [&](std::size_t n) { fates[n] = flyOne(scene, phi, psi, dt, drops[n]); });
   DropFlight flight;
   std::size_t kept = 0;
-  for (Drop& drop : drops) {
-    switch (flyOne(scene, phi, psi, dt, drop)) {
+  for (std::size_t n = 0; n < drops.size(); ++n) {
+    const Drop drop = drops[n];
+    switch (fates[n]) {
       case Fate::flies:
         drops[kept++] = drop;
         break;

@@ -144,8 +144,8 @@ void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBounda
 }
 
 void VelocityExtrapolator::goOn(const DenseField<float>& phi, const SolidBoundary& solids,
-                                MacVelocity& velocity) {
-  for (int axis = 0; axis < 3; ++axis) {
+                                MacVelocity& velocity, bool surfaceStands) {
+  for (int axis = 0; axis < 3 && !surfaceStands; ++axis) {
     markKnown(axis, phi, solids);
     layers_[axis].grow(1, 1);
   }

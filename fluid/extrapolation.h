@@ -25,7 +25,9 @@ class VelocityExtrapolator {
   /// the flow inside agrees. A surface lies between faces: carried by a velocity that is constant beyond the
   /// known faces it lags by up to half a cell's change of it, which makes waves 0.6 % too slow at 64 cells a
   /// half length. Only for what carries the surface: velocities carried by it blow up where gaps close.
-  void goOn(const DenseField<float>& phi, const SolidBoundary& solids, MacVelocity& velocity);
+  /// `surfaceStands`: phi and solids are those of the last call of `apply`, whose layers serve again.
+  void goOn(const DenseField<float>& phi, const SolidBoundary& solids, MacVelocity& velocity,
+            bool surfaceStands = false);
 
  private:
   void markKnown(int axis, const DenseField<float>& phi, const SolidBoundary& solids);

@@ -30,6 +30,9 @@ struct LiquidBodies {
   /// Keeps its arrays between calls. Cells without any free space (inside solids) are not counted.
   void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 
+  /// Liquid volume of every cell in the last call of `find` [dx^3].
+  const DenseField<float>& fraction() const { return fraction_; }
+
  private:
   /// A stretch of a slab of cells that belongs to one body, in cells and dx^3; -1: to none.
   struct Part {

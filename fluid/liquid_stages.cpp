@@ -18,12 +18,13 @@ namespace {
 /// The velocity must reach beyond the fastest sub-step and the stencil of its interpolation [cells].
 constexpr int kStencilReach = 3;
 
+/// Sub-steps between two looks at how much liquid each marker stands for: a thinning sheet changes it over
+/// many. The air that a marker stands for is looked at in each: taken a few sub-steps before it goes under,
+/// when it is still far above the surface, it is too much, and makes half as many births again in a pour.
+constexpr int kSubStepsPerDropVolume = 4;
+
 /// More sub-steps than this in one step mean that the velocity has run away.
 constexpr int kMaxSubSteps = 2000;
-
-/// Sub-steps between two looks at how much liquid each marker stands for: a thinning sheet changes it over
-/// many.
-constexpr int kSubStepsPerDropVolume = 4;
 
 /// Steps that fill an interval up to round-off must not be given one more.
 constexpr double kRoundOff = 1e-9;
@@ -54,7 +55,6 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
       viscosity(setup.grid, params),
       projection(setup.grid, params),
       source(setup.grid.cells),
-      fraction(setup.grid.cells),
       cellMark(setup.grid.cells, -1) {
   state.grid = setup.grid;
   solids.sides.walkReach = static_cast<int>(std::ceil(params.cfl)) + kStencilReach;
@@ -65,6 +65,7 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
 void LiquidStages::start() {
   updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time, solids);
   extension.rebuild(solids);
+  surfaceStands = false;
   maxSpeed = maxFaceSpeed(state.phi, state.velocity);
 }
 
@@ -118,6 +119,7 @@ void LiquidStages::moveSolids(double dt) {
     if (extension.hasUncovered()) extension.rebuild(solids);  // as a resumed run has it
     return;
   }
+  surfaceStands = false;
   extension.rebuild(solids, &psiBefore);
   extension.uncover(state.phi);
   extension.apply(state.phi);
@@ -126,7 +128,7 @@ void LiquidStages::moveSolids(double dt) {
 void LiquidStages::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
   surfaceVelocity = state.velocity;
-  extrapolator.goOn(state.phi, solids, surfaceVelocity);
+  extrapolator.goOn(state.phi, solids, surfaceVelocity, surfaceStands);
   levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi, &solids);
   admitAir(state.grid, solids, surfaceVelocity, dt, state.phi);
   MarkerScene scene = markerScene();
@@ -250,6 +252,7 @@ void LiquidStages::project(double dt, double advance, LiquidStepReport& report) 
 void LiquidStages::extrapolate() {
   const int layers = static_cast<int>(std::ceil(params.cfl)) + kStencilReach;
   extrapolator.apply(state.phi, solids, layers, state.velocity);
+  surfaceStands = true;
   constrainToSolids(solids, state.velocity);
 }
 
@@ -293,15 +296,15 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
 }
 
 void LiquidStages::measure(LiquidStepReport& report) {
-  computeLiquidFraction(state.phi, solids, static_cast<float>(state.grid.dx), fraction);
-  const LiquidEnergy energy = liquidEnergy(
-      state.grid, fraction, presentVelocity(state, solids, lastAdvance, params.density, params.gravity),
-      params.density, params.gravity);
+  const LiquidEnergy energy =
+      liquidEnergy(state.grid, bodies.fraction(),
+                   presentVelocity(state, solids, lastAdvance, params.density, params.gravity),
+                   params.density, params.gravity);
   const LiquidEnergy flying = energyOf(state.drops, params.density, params.gravity);
   report.kineticEnergy = energy.kinetic + flying.kinetic;
   report.potentialEnergy = energy.potential + flying.potential;
   report.maxSpeed = maxSpeed;
-  report.liquidVolume = fluid::liquidVolume(state.grid, state.phi, solids);
+  report.liquidVolume = bodies.volume;
   report.targetVolume = volumeControl.targetVolume();
   report.drops = state.drops.size();
   report.dropVolume = volumeOf(state.drops);

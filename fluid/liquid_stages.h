@@ -59,7 +59,7 @@ struct LiquidStages {
   Viscosity viscosity;
   Projection projection;
   MacVelocity surfaceVelocity;  // carries the surface and its markers
-  DenseField<float> source, fraction, psiBefore;
+  DenseField<float> source, psiBefore;
   DenseField<std::int32_t> cellMark;
 
   std::vector<Drop> landed;  // in this sub-step
@@ -69,6 +69,7 @@ struct LiquidStages {
   double maxSpeed = 0;
   double lastAdvance = 0;      ///< time that the velocity advanced in the last sub-step [s]
   bool pocketsFilled = false;  // after they were found in this sub-step
+  bool surfaceStands = false;  ///< phi and solids are as in the last extrapolation
 
   MarkerScene markerScene() const { return {state.grid, params, setup.walls, solids}; }
   double longestStep() const;

@@ -68,6 +68,18 @@ void moveChunk(const MacView& wind, const Eigen::Vector3f& top, const std::array
   keepWithin(range[2], count, endZ.data(), z);
 }
 
+/// Notes which markers are outside the grid: 1, else 0.
+[[gnu::noinline]] void findOutside(const Eigen::Vector3f& top, int count, const float* __restrict x,
+                                   const float* __restrict y, const float* __restrict z,
+                                   std::int32_t* __restrict outside) {
+  const float topX = top.x(), topY = top.y(), topZ = top.z();
+  for (int n = 0; n < count; ++n) {
+    const bool inside =
+        (x[n] >= 0) & (x[n] <= topX) & (y[n] >= 0) & (y[n] <= topY) & (z[n] >= 0) & (z[n] <= topZ);
+    outside[n] = inside ? 0 : 1;
+  }
+}
+
 /// Notes which markers are outside the grid or closer to a wall than `gap` [m]: 1, else 0. psi has values
 /// inside the grid only: it is sampled between cell centres.
 void findTouching(const FieldView& psi, const Eigen::Vector3f& top, float gap, int count,
@@ -166,6 +178,7 @@ void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double
   const float cellsPerSpeed = static_cast<float>(dt / scene.grid.dx);
   const float gap = kWallGap * static_cast<float>(scene.grid.dx);
   const bool thinWalls = scene.solids.sides.any();
+  const bool wallsAlone = scene.objects && scene.objects->empty();  // the range keeps them off these
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     MarkerValues fromX, fromY, fromZ;
     if (thinWalls) {
@@ -175,8 +188,12 @@ void advectMarkers(const MarkerScene& scene, const MacVelocity& velocity, double
     }
     moveChunk(wind, top, range, cellsPerSpeed, markers, first, last);
     MarkerCells touching;
-    findTouching(psi, top, gap, static_cast<int>(last - first), markers.x.data() + first,
-                 markers.y.data() + first, markers.z.data() + first, touching.data());
+    const int count = static_cast<int>(last - first);
+    const float *x = markers.x.data() + first, *y = markers.y.data() + first, *z = markers.z.data() + first;
+    if (wallsAlone)
+      findOutside(top, count, x, y, z, touching.data());
+    else
+      findTouching(psi, top, gap, count, x, y, z, touching.data());
     for (std::size_t n = first; n < last; ++n)
       if (touching[n - first]) keepFree(scene, psi, markers, n);
     for (std::size_t n = first; thinWalls && n < last; ++n)

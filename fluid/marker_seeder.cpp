@@ -22,6 +22,9 @@ constexpr float kMarkerWallGap = 0.1f;
 /// Cells whose centre lies deeper than this behind a wall get no markers [cells].
 constexpr float kWallDepth = 0.5f;
 
+/// No point of a cell is further from its centre than this [cells].
+constexpr float kCellReach = 1;
+
 /// A cell may hold this many times markersPerCell before some go: markers of one cell differ in age, and the
 /// young ones, which go first, were drawn from a younger phi.
 constexpr float kSurplus = 1.5f;
@@ -68,6 +71,8 @@ struct MarkerSeeder::Side {
   int allowed(int i, int j, int k) const {
     return toCells * phi(i, j, k) > band ? 0 : static_cast<int>(kSurplus * scene.params.markersPerCell);
   }
+  /// False if all of a cell is within the band: phi is a distance there.
+  bool mayStray(int i, int j, int k) const { return toCells * phi(i, j, k) > band - kCellReach; }
   /// Markers cell (i, j, k) should have.
   int wanted(int i, int j, int k) const {
     if (scene.solids.psi(i, j, k) < -kWallDepth * scene.grid.dx) return 0;
@@ -116,9 +121,11 @@ void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
       const std::int32_t cell = (i * cells.y() + j) * cells.z() + k;
       int room = side.allowed(i, j, k);
       int present = 0;
+      const bool mayStray = side.mayStray(i, j, k);
       for (std::int32_t n = start[cell]; n < start[cell + 1]; ++n) {
         if (markers.escaped[n]) continue;
-        const bool strayed = side.depth({i, j, k}, markers.x[n], markers.y[n], markers.z[n]) > side.band;
+        const bool strayed =
+            mayStray && side.depth({i, j, k}, markers.x[n], markers.y[n], markers.z[n]) > side.band;
         if (strayed || room == 0) {
           markers.x[n] = std::numeric_limits<float>::quiet_NaN();
         } else {

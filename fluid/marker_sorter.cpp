@@ -12,12 +12,24 @@ std::int32_t MarkerSorter::cellNumber(float x, float y, float z) const {
   return (cell(x, cells_.x()) * cells_.y() + cell(y, cells_.y())) * cells_.z() + cell(z, cells_.z());
 }
 
+namespace {
+
+/// On its own so that it vectorises.
+[[gnu::noinline]] int countRemoved(int count, const float* __restrict x) {
+  int removed = 0;
+  for (int n = 0; n < count; ++n) removed += x[n] != x[n] ? 1 : 0;
+  return removed;
+}
+
+}  // namespace
+
 void MarkerSorter::compact(MarkerSet& markers) {
   const std::size_t count = markers.size();
   gone_.resize((count + kMarkerChunk - 1) / kMarkerChunk);
   forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
     std::vector<std::size_t>& gone = gone_[first / kMarkerChunk];
     gone.clear();
+    if (countRemoved(static_cast<int>(last - first), markers.x.data() + first) == 0) return;
     for (std::size_t n = first; n < last; ++n)
       if (std::isnan(markers.x[n])) gone.push_back(n);
   });

@@ -32,9 +32,10 @@ bool seesCell(const SolidBoundary* solids, const Eigen::Vector3i& from, const Ei
 }
 
 /// Label with the largest volume within `reach` cells of a point, on its side of thin walls, else -1.
+/// `largest` is the largest body of all: it ends the search.
 std::int32_t largestNear(const GridSpec& grid, const SolidBoundary* solids,
                          const DenseField<std::int32_t>& label, const std::vector<LiquidBody>& bodies,
-                         const Eigen::Vector3d& x, int reach) {
+                         const Eigen::Vector3d& x, int reach, std::int32_t largest) {
   const Eigen::Vector3i centre = grid.toCells(x).array().floor().cast<int>();
   const Eigen::Vector3i low = (centre.array() - reach).max(0);
   const Eigen::Vector3i high = (centre.array() + reach).min(grid.cells.array() - 1);
@@ -45,6 +46,7 @@ std::int32_t largestNear(const GridSpec& grid, const SolidBoundary* solids,
         const std::int32_t n = label(i, j, k);
         if (n < 0 || n == best || (best >= 0 && bodies[n].volume <= bodies[best].volume)) continue;
         if (seesCell(solids, centre.cwiseMax(low).cwiseMin(high), {i, j, k})) best = n;
+        if (best == largest) return best;
       }
   return best;
 }
@@ -82,6 +84,7 @@ void VolumeControl::resume(const LiquidBodies& bodies, VolumeLedger ledger) {
   gas_.assign(bodies.bodies.size(), 0);
   lastLabel_ = bodies.label;
   lastBodies_ = bodies.bodies;
+  lastLargest_ = largest(lastBodies_);
 }
 
 double VolumeControl::bookOutflow(const DenseField<float>& phi, const SolidBoundary& boundary,
@@ -124,8 +127,8 @@ double VolumeControl::bookDrained(const Eigen::Vector3i& cell, double volume) {
 }
 
 std::int32_t VolumeControl::lastBodyNear(const Eigen::Vector3d& x) const {
-  const std::int32_t near = largestNear(grid_, solids_, lastLabel_, lastBodies_, x, kNearby);
-  return near >= 0 ? near : largest(lastBodies_);
+  const std::int32_t near = largestNear(grid_, solids_, lastLabel_, lastBodies_, x, kNearby, lastLargest_);
+  return near >= 0 ? near : lastLargest_;
 }
 
 double VolumeControl::withdraw(const Eigen::Vector3d& x, double volume) {
@@ -182,6 +185,7 @@ void VolumeControl::findGroups(const LiquidBodies& bodies) {
   const auto old = static_cast<std::int32_t>(lastBodies_.size());
   group_.resize(now + old);
   std::iota(group_.begin(), group_.end(), 0);
+  const std::int32_t largestNow = largest(bodies.bodies);
   std::vector<char>& linked = linked_;
   linked.assign(now + old, 0);
   for (const auto& links : links_)
@@ -193,9 +197,10 @@ void VolumeControl::findGroups(const LiquidBodies& bodies) {
     if (linked[n]) continue;
     const bool isNew = n < now;
     const Eigen::Vector3d& place = isNew ? bodies.bodies[n].centroid : lastBodies_[n - now].centroid;
-    std::int32_t heir = isNew ? largestNear(grid_, solids_, lastLabel_, lastBodies_, place, kNearby)
-                              : largestNear(grid_, solids_, bodies.label, bodies.bodies, place, kNearby);
-    if (heir < 0) heir = isNew ? largest(lastBodies_) : largest(bodies.bodies);
+    std::int32_t heir =
+        isNew ? largestNear(grid_, solids_, lastLabel_, lastBodies_, place, kNearby, lastLargest_)
+              : largestNear(grid_, solids_, bodies.label, bodies.bodies, place, kNearby, largestNow);
+    if (heir < 0) heir = isNew ? lastLargest_ : largestNow;
     if (heir >= 0) unite(n, isNew ? now + heir : heir);
   }
 }
@@ -203,10 +208,13 @@ void VolumeControl::findGroups(const LiquidBodies& bodies) {
 void VolumeControl::bookGas(const LiquidBodies& bodies, const ImmersedGas& gas) {
   gas_.assign(bodies.bodies.size(), 0);
   gasBody_.resize(gas.volume.size());
+  const std::int32_t most = largest(bodies.bodies);
   tbb::parallel_for(std::size_t{0}, gas.volume.size(), [&](std::size_t b) {
     std::int32_t& body = gasBody_[b];
-    body = largestNear(grid_, solids_, bodies.label, bodies.bodies, gas.position[b], 0);
-    if (body < 0) body = largestNear(grid_, solids_, bodies.label, bodies.bodies, gas.position[b], kNearby);
+    body = -1;
+    for (const int reach : {0, kNearby})
+      if (body < 0)
+        body = largestNear(grid_, solids_, bodies.label, bodies.bodies, gas.position[b], reach, most);
   });
   for (std::size_t b = 0; b < gas.volume.size(); ++b)
     if (gasBody_[b] >= 0) gas_[gasBody_[b]] += gas.volume[b];
@@ -243,6 +251,7 @@ void VolumeControl::update(const LiquidBodies& bodies, const MacVelocity& veloci
   dealTargets(bodies);
   lastLabel_ = bodies.label;
   lastBodies_ = bodies.bodies;
+  lastLargest_ = largest(lastBodies_);
 }
 
 /// Within a group every body gets its own liquid and a share of the group's error in proportion to its

@@ -87,6 +87,7 @@ class VolumeControl {
   VolumeLedger ledger_;
   DenseField<std::int32_t> lastLabel_;
   std::vector<LiquidBody> lastBodies_;
+  std::int32_t lastLargest_ = -1;      // of them
   std::vector<double> gas_;            // immersed gas of each body [m^3]
   std::vector<std::int32_t> gasBody_;  // that of each bubble
 
