@@ -173,6 +173,9 @@ std::vector<ResultRow> closedBoxVolume(const StudyContext&) {
   power.quantity = "largest rise of the energy in a step of 11 ms";
   power.reference = "zero";
   power.source = "exact";
+  power.note =
+      "when hundreds of drops leave at once: their volume is taken from all of the body, most of it lower "
+      "down";
   return {aimAtMost(volume, 100 * drift, 0.5, "%"), aimAtMost(power, 100 * std::max(0.0, rise), 0.1, "%")};
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "apps/reproduce/liquid_bench.h"
 #include "apps/reproduce/liquid_studies.h"
@@ -37,38 +38,19 @@ struct ImpactRecord {
   }
 };
 
-/// Rows of the impact: [SPHERIC test 2] P1 to P4.
-void addImpact(const ImpactRecord& impact, std::vector<ResultRow>& rows) {
-  constexpr std::array<double, ImpactRecord::kGauges> kPeak{11.2e3, 8.13e3, 6.56e3, 7.2e3};
-  constexpr std::array<const char*, ImpactRecord::kGauges> kText{"11.2 kPa", "8.13 kPa; interFoam -15.5 %",
-                                                                 "6.56 kPa", "7.2 kPa"};
-  constexpr double kRise = .393;
-  ResultRow r;
-  r.resolution = "103 x 32 x 32";
-  r.source = "Kleefsman et al. 2005, distributed data";
-  r.quantity = "error of the time P1 rises";
-  r.reference = ".393 s; interFoam +2.4 %";
-  rows.push_back(aimAtMost(r, 100 * (impact.rise / kRise - 1), 3, "%"));
-  for (int n = 0; n < ImpactRecord::kGauges; ++n) {
-    r.aim.clear();
-    r.verdict = Verdict::none;
-    r.quantity = "error of the peak of P" + std::to_string(n + 1);
-    r.reference = kText[n];
-    const double error = 100 * (impact.peak[n] / kPeak[n] - 1);
-    rows.push_back(n == 1 ? aimAtMost(r, error, 20, "%") : reportOnly(r, error, "%"));
-  }
+constexpr const char* kTankSource = "Kleefsman et al. 2005, distributed data";
+constexpr double kImpactEnd = 0.55;          ///< the water has met the box and its gauges have peaked [s]
+constexpr double kImpactStep = 0.25 * 0.01;  ///< [s]
+
+std::string tankResolution(const fluid::GridSpec& grid) {
+  return std::to_string(grid.cells.x()) + " x " + std::to_string(grid.cells.y()) + " x " +
+         std::to_string(grid.cells.z());
 }
 
-/// F10: a column 0.55 m high meets a box on the floor of a tank [SPHERIC test 2]. Heights in metres.
-std::vector<ResultRow> boxInTank(const StudyContext&) {
-  constexpr int kAcross = 32;
-  struct Reading {
-    double time, h2, h4;
-  };
-  constexpr std::array<Reading, 3> kMeasured{{{.5, .099, .426}, {1.007, .180, .277}, {1.80, .333, .147}}};
-  constexpr double kLargest2 = .341, kLargest4 = .55;
-  const double dx = 1.0 / kAcross;
-  const fluid::GridSpec grid{{static_cast<int>(std::lround(3.22 / dx)), kAcross, kAcross}, dx, {0, 0, 0}};
+/// The tank of SPHERIC test 2 with `across` cells over its width of 1 m.
+fluid::LiquidSolver tank(int across) {
+  const double dx = 1.0 / across;
+  const fluid::GridSpec grid{{static_cast<int>(std::lround(3.22 / dx)), across, across}, dx, {0, 0, 0}};
   const fluid::SolidObject box{"box",
                                [](const Eigen::Vector3d& x, double) {
                                  const Eigen::Vector3d lower(.6635, -1, .2955), upper(.8245, .161, .6985);
@@ -80,45 +62,104 @@ std::vector<ResultRow> boxInTank(const StudyContext&) {
   params.gravity = {0, -9.81, 0};
   params.density = 998.2;
   const auto phi0 = [](const Eigen::Vector3d& x) { return std::max(1.992 - x.x(), x.y() - .55); };
-  fluid::LiquidSolver solver(params, {grid, openTop(), {box}, {}}, phi0);
+  return {params, {grid, openTop(), {box}, {}}, phi0};
+}
+
+/// Rows of the impact: [SPHERIC test 2] P1 to P4.
+void addImpact(const ImpactRecord& impact, const fluid::GridSpec& grid, std::vector<ResultRow>& rows) {
+  constexpr std::array<double, ImpactRecord::kGauges> kPeak{11.2e3, 8.13e3, 6.56e3, 7.2e3};
+  constexpr std::array<const char*, ImpactRecord::kGauges> kText{"11.2 kPa", "8.13 kPa; interFoam -15.5 %",
+                                                                 "6.56 kPa", "7.2 kPa"};
+  constexpr double kRise = .393;
+  ResultRow r;
+  r.resolution = tankResolution(grid);
+  r.source = kTankSource;
+  r.quantity = "error of the time P1 rises";
+  r.reference = ".393 s; interFoam +2.4 %";
+  r.note =
+      "steps of 0.6 ms: 5.1 %; the front meets the box at .417 s with 32 cells across, at .410 s with 64";
+  rows.push_back(aimAtMost(r, 100 * (impact.rise / kRise - 1), 3, "%"));
+  r.note.clear();
+  for (int n = 0; n < ImpactRecord::kGauges; ++n) {
+    r.aim.clear();
+    r.verdict = Verdict::none;
+    r.quantity = "error of the peak of P" + std::to_string(n + 1);
+    r.reference = kText[n];
+    const double error = 100 * (impact.peak[n] / kPeak[n] - 1);
+    rows.push_back(n == 1 ? aimAtMost(r, error, 20, "%") : reportOnly(r, error, "%"));
+  }
+}
+
+ImpactRecord impactOn(fluid::LiquidSolver& solver) {
+  ImpactRecord impact;
+  while (solver.state().time < kImpactEnd) {
+    solver.step(kImpactStep);
+    impact.note(solver);
+  }
+  return impact;
+}
+
+/// What the height gauges H2 and H4 read at the times of three measurements.
+struct HeightRecord {
+  struct Reading {
+    double time, h2, h4;
+  };
+  static constexpr std::array<Reading, 3> kMeasured{
+      {{.5, .099, .426}, {1.007, .180, .277}, {1.80, .333, .147}}};
   double error2 = 0, error4 = 0, peak = 0, peakTime = 0;
   std::size_t next = 0;
-  ImpactRecord impact;
-  constexpr double kStep = 0.01, kImpactEnd = 0.55;
-  while (next < kMeasured.size() || solver.state().time < 2) {
-    if (solver.state().time < kImpactEnd) {
-      for (int n = 0; n < 4; ++n) {
-        solver.step(0.25 * kStep);
-        impact.note(solver);
-      }
-    } else {
-      solver.step(kStep);
-    }
-    const double t = solver.state().time, h2 = gauge(solver.state(), .992, .5);
-    if (h2 > peak) peak = h2, peakTime = t;
-    if (next == kMeasured.size() || t < kMeasured[next].time - 0.5 * kStep) continue;
+
+  void note(const fluid::LiquidState& state, double step) {
+    const double h2 = gauge(state, .992, .5);
+    if (h2 > peak) peak = h2, peakTime = state.time;
+    if (next == kMeasured.size() || state.time < kMeasured[next].time - 0.5 * step) return;
     error2 += std::abs(h2 - kMeasured[next].h2) / kMeasured.size();
-    error4 += std::abs(gauge(solver.state(), 2.638, .5) - kMeasured[next].h4) / kMeasured.size();
+    error4 += std::abs(gauge(state, 2.638, .5) - kMeasured[next].h4) / kMeasured.size();
     ++next;
   }
+};
+
+std::vector<ResultRow> heightRows(const HeightRecord& heights, const fluid::GridSpec& grid) {
+  constexpr double kLargest2 = .341, kLargest4 = .55, kPeakTime = 1.787;
   ResultRow h2, h4, top, arrival;
   for (ResultRow* r : {&h2, &h4, &top, &arrival}) {
-    r->resolution = "103 x 32 x 32";
-    r->source = "Kleefsman et al. 2005, distributed data";
+    r->resolution = tankResolution(grid);
+    r->source = kTankSource;
   }
   h2.quantity = "mean error of H2 at 3 times, of its maximum";
   h4.quantity = "mean error of H4 at 3 times, of its maximum";
   top.quantity = "error of the peak of H2";
   arrival.quantity = "error of its time";
+  h2.note = "the wave that comes back breaks: 3.7 to 8.2 % in runs that differ by round-off";
   h2.reference = ".099, .180, .333 m; interFoam 3.0 %";
   h4.reference = ".426, .277, .147 m; interFoam 1.8 %";
   top.reference = ".341 m";
   arrival.reference = "1.787 s";
-  std::vector<ResultRow> rows{aimAtMost(h2, 100 * error2 / kLargest2, 4, "%"),
-                              aimAtMost(h4, 100 * error4 / kLargest4, 4, "%"),
-                              reportOnly(top, 100 * (peak / kLargest2 - 1), "%"),
-                              aimAtMost(arrival, 100 * (peakTime / 1.787 - 1), 3, "%")};
-  addImpact(impact, rows);
+  return {aimAtMost(h2, 100 * heights.error2 / kLargest2, 4, "%"),
+          aimAtMost(h4, 100 * heights.error4 / kLargest4, 4, "%"),
+          reportOnly(top, 100 * (heights.peak / kLargest2 - 1), "%"),
+          aimAtMost(arrival, 100 * (heights.peakTime / kPeakTime - 1), 3, "%")};
+}
+
+/// F10: a column 0.55 m high meets a box on the floor of a tank [SPHERIC test 2]; the impact at twice the
+/// resolution, too.
+std::vector<ResultRow> boxInTank(const StudyContext&) {
+  constexpr int kAcross = 32;
+  constexpr double kStep = 0.01, kEnd = 2;
+  fluid::LiquidSolver solver = tank(kAcross);
+  HeightRecord heights;
+  ImpactRecord impact;
+  while (solver.state().time < kEnd) {
+    const bool meets = solver.state().time < kImpactEnd;
+    const double step = meets ? kImpactStep : kStep;
+    solver.step(step);
+    if (meets) impact.note(solver);
+    heights.note(solver.state(), step);
+  }
+  std::vector<ResultRow> rows = heightRows(heights, solver.state().grid);
+  addImpact(impact, solver.state().grid, rows);
+  fluid::LiquidSolver fine = tank(2 * kAcross);
+  addImpact(impactOn(fine), fine.state().grid, rows);
   return rows;
 }
 
@@ -161,7 +202,7 @@ std::vector<ResultRow> filling(const StudyContext&) {
 }  // namespace
 
 std::vector<Study> tankStudies() {
-  return {{"F10", "column against a box", 150, boxInTank}, {"F12", "filling at rate Q", 150, filling}};
+  return {{"F10", "column against a box", 500, boxInTank}, {"F12", "filling at rate Q", 150, filling}};
 }
 
 }  // namespace spume::apps

@@ -183,6 +183,9 @@ std::vector<ResultRow> escapedBudget(const StudyContext&) {
   ResultRow r =
       row(resolutionOf(scene, options), "largest drift of grid and escaped markers", "zero", "exact");
   r.title = "budget of escaped markers";
+  r.note =
+      "cells around an escaped marker still hold part of its liquid; the last markers of a cell that comes "
+      "apart get all that is left in it";
   return {aimAtMost(r, 100 * result.worstBudget, 1, "%")};
 }
 
