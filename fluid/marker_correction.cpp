@@ -48,12 +48,11 @@ void MarkerCorrection::findEscaped(float dx, const WallSides& sides, MarkerSign 
     MarkerValues values;
     sampleAtMarkers(phi, sides, markers, first, last, values);
     flagEscapedMarkers(values, toCells, first, last, markers);
-    for (std::size_t n = first; n < last; ++n) {
-      if (!markers.escaped[n]) continue;
+    forEachEscaped(markers, first, last, [&](std::size_t n) {
       ++chunk.escaped;
       addSphere(dx, sides, markers.x[n] - 0.5f, markers.y[n] - 0.5f, markers.z[n] - 0.5f, markers.radius[n],
                 phi, chunk.values);
-    }
+    });
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "fluid/marker_chunks.h"
 #include "fluid/marker_set.h"
@@ -32,6 +33,23 @@ extern template void findMarkerCells(const DenseField<float>&, const MarkerSet&,
                                      MarkerCells&);
 extern template void findMarkerCells(const DenseField<std::int32_t>&, const MarkerSet&, std::size_t,
                                      std::size_t, MarkerCells&);
+
+/// Calls body(n) for every marker in [first, last) that is flagged as escaped, in order; few are.
+template <typename Body>
+void forEachEscaped(const MarkerSet& markers, std::size_t first, std::size_t last, const Body& body) {
+  constexpr std::size_t kWord = sizeof(std::uint64_t);  // flags looked at together
+  const auto look = [&](std::size_t from, std::size_t to) {
+    for (std::size_t n = from; n < to; ++n)
+      if (markers.escaped[n]) body(n);
+  };
+  std::size_t n = first;
+  for (; n + kWord <= last; n += kWord) {
+    std::uint64_t flags;
+    std::memcpy(&flags, markers.escaped.data() + n, kWord);
+    if (flags != 0) look(n, n + kWord);
+  }
+  look(n, last);
+}
 
 /// Flags the markers [first, last) whose distance into their own side, toSide times `values` [cells], is less
 /// than minus their radius.
