@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "fluid/plane_pipeline.h"
 #include "fluid/pressure_rows.h"
 
 namespace spume::fluid {
@@ -117,15 +116,6 @@ void Multigrid::coarsen() {
     aggregate(levels_[n - 1].matrix, levels_[n].matrix);
     levels_[n].matrix.finish();
   }
-  for (Level& level : levels_) findPlanes(level);
-}
-
-void Multigrid::findPlanes(Level& level) {
-  const std::vector<ActiveRow>& rows = level.matrix.rows;
-  level.planeStart.assign(level.matrix.cells().x() + 1, static_cast<int>(rows.size()));
-  for (int n = static_cast<int>(rows.size()) - 1; n >= 0; --n) level.planeStart[rows[n].i] = n;
-  for (std::size_t i = level.planeStart.size() - 1; i-- > 0;)  // planes without rows
-    level.planeStart[i] = std::min(level.planeStart[i], level.planeStart[i + 1]);
 }
 
 void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
@@ -143,42 +133,35 @@ void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
 }
 
 void Multigrid::cycle(std::size_t depth) {
+  constexpr int kRed = 0, kBlack = 1;
   Level& level = levels_[depth];
   const int sweeps = depth + 1 == levels_.size() ? kCoarsestSweeps : depth == 0 ? kFineSweeps : kCoarseSweeps;
-  smooth(level, sweeps, true);
+  startSmooth(level);
+  smooth(level, kBlack);
+  for (int n = 1; n < sweeps; ++n) smooth(level, kRed), smooth(level, kBlack);
   if (depth + 1 < levels_.size()) {
     restrictResidual(level, levels_[depth + 1]);
     cycle(depth + 1);
     addCorrection(levels_[depth + 1], level);
   }
-  smooth(level, sweeps, false);
+  for (int n = 0; n < sweeps; ++n) smooth(level, kBlack), smooth(level, kRed);
 }
 
-/// Double sweeps: from x = 0 red first, else black first.
-void Multigrid::smooth(Level& level, int sweeps, bool fromZero) {
-  const int first = fromZero ? 0 : 1, stages = 2 * sweeps, planes = level.matrix.cells().x();
-  const auto relax = [&](int stage, int plane) {
-    relaxPlane(level, plane, (first + stage) & 1, fromZero && stage == 0);
-  };
-  if (static_cast<int>(level.matrix.rows.size()) > 2 * kRowChunk)
-    return pipelinePlanes(stages, planes, relax);
-  for (int stage = 0; stage < stages; ++stage)
-    for (int plane = 0; plane < planes; ++plane) relax(stage, plane);
+/// The first red sweep from x = 0.
+void Multigrid::startSmooth(Level& level) {
+  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
+    startPiece(&level.matrix.inverseDiagonal(row.i, row.j, row.begin), &level.rhs(row.i, row.j, row.begin),
+               (row.i + row.j + row.begin) & 1, row.end - row.begin, &level.x(row.i, row.j, row.begin));
+  });
 }
 
-/// Sweep of one colour over a plane; from x = 0 the other one is set to 0.
-void Multigrid::relaxPlane(Level& level, int plane, int colour, bool fromZero) {
-  for (int n = level.planeStart[plane]; n < level.planeStart[plane + 1]; ++n) {
-    const ActiveRow& row = level.matrix.rows[n];
+void Multigrid::smooth(Level& level, int colour) {
+  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
     const auto at = level.matrix.excess.index(row.i, row.j, row.begin);
-    const int parity = (row.i + row.j + row.begin + colour) & 1, count = row.end - row.begin;
-    const float* rhs = level.rhs.data() + at;
     float* x = level.x.data() + at;
-    if (fromZero)
-      startPiece(level.matrix.inverseDiagonal.data() + at, rhs, parity, count, x);
-    else
-      relaxRow(level.matrix, at, parity, count, rhs, x);
-  }
+    relaxRow(level.matrix, at, (row.i + row.j + row.begin + colour) & 1, row.end - row.begin,
+             level.rhs.data() + at, x);
+  });
 }
 
 void Multigrid::restrictResidual(const Level& fine, Level& coarse) {

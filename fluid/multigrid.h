@@ -32,14 +32,12 @@ class Multigrid {
   struct Level {
     PressureMatrix matrix;
     DenseField<float> x, rhs;
-    std::vector<int> planeStart;  ///< first active row of every plane i, and one past the last
     explicit Level(const Eigen::Vector3i& cells) : matrix(cells), x(cells), rhs(cells) {}
   };
   void cycle(std::size_t depth);
   static void aggregate(const PressureMatrix& fine, PressureMatrix& coarse);
-  static void findPlanes(Level& level);
-  static void smooth(Level& level, int sweeps, bool fromZero);
-  static void relaxPlane(Level& level, int plane, int colour, bool fromZero);
+  static void startSmooth(Level& level);
+  static void smooth(Level& level, int colour);
   static void restrictResidual(const Level& fine, Level& coarse);
   static void restrictPiece(const Level& fine, Level& coarse, const ActiveRow& piece);
   static void addCorrection(const Level& coarse, Level& fine);
