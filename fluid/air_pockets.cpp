@@ -1,11 +1,16 @@
 #include "fluid/air_pockets.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "fluid/disjoint_sets.h"
 #include "fluid/level_set.h"
 
 namespace spume::fluid {
 namespace {
+
+/// Thickness below which liquid between two bodies of air is a film the grid cannot hold [dx].
+constexpr float kThinnestFilm = 1;
 
 bool isSmall(const AirPocket& pocket) {
   return pocket.cells.size() <= static_cast<std::size_t>(kLargestFilledPocket);
@@ -86,12 +91,49 @@ void AirPockets::find(const GridSpec& grid, const DenseField<float>& phi, const 
   const int components = connected_.label(
       grid.cells, [&](int i, int j, int k) { return phi(i, j, k) >= 0 && boundary.hasOpenFace(i, j, k); },
       [&](int axis, int i, int j, int k) { return boundary.open[axis](i, j, k) > 0; }, label_);
+  joinAcrossFilms(grid, phi, boundary, components);
   count_.assign(components, 0);
-  connected_.forEachRun(grid.cells,
-                        [&](std::int32_t n, int, int, int begin, int end) { count_[n] += end - begin; });
+  connected_.forEachRun(
+      grid.cells, [&](std::int32_t n, int, int, int begin, int end) { count_[joined_[n]] += end - begin; });
   findOutside(grid, boundary, vents);
   collect(grid);
   for (AirPocket& pocket : pockets_) measure(grid, phi, boundary, pocket);
+}
+
+/// Bodies of air that meet at one thin liquid cell count as one: the film between them has burst. Held apart
+/// they would press on it with their difference over a small part of a cell, and blow it away at any speed.
+void AirPockets::joinAcrossFilms(const GridSpec& grid, const DenseField<float>& phi,
+                                 const SolidBoundary& boundary, int components) {
+  joined_.resize(components);
+  std::iota(joined_.begin(), joined_.end(), 0);
+  if (components < 2) return;
+  const float deepest = -0.5f * kThinnestFilm * static_cast<float>(grid.dx);
+  links_.resize(grid.cells.x());
+  tbb::parallel_for(0, grid.cells.x(), [&](int i) {
+    links_[i].clear();
+    for (int j = 0; j < grid.cells.y(); ++j)
+      for (int k = 0; k < grid.cells.z(); ++k)
+        if (phi(i, j, k) < 0 && phi(i, j, k) > deepest) linkAirBeside(boundary, {i, j, k}, links_[i]);
+  });
+  DisjointSets sets(components);
+  for (const Links& links : links_)
+    for (const auto& [a, b] : links) sets.unite(a, b);
+  for (std::int32_t n = 0; n < components; ++n) joined_[n] = static_cast<std::int32_t>(sets.of(n));
+}
+
+/// Appends the pairs of components that a liquid cell touches, each with the first it finds.
+void AirPockets::linkAirBeside(const SolidBoundary& boundary, const Eigen::Vector3i& c, Links& links) const {
+  std::int32_t first = -1;
+  for (int a = 0; a < 3; ++a)
+    for (int side : {-1, 1}) {
+      const Eigen::Vector3i step = Eigen::Vector3i::Unit(a), n = c + side * step;
+      const std::int32_t other = label_(n);
+      if (other < 0 || other == first || !(boundary.open[a](side > 0 ? n : c) > 0)) continue;
+      if (first < 0)
+        first = other;
+      else
+        links.emplace_back(first, other);
+    }
 }
 
 void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary,
@@ -99,7 +141,7 @@ void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary
   outside_.assign(count_.size(), 0);
   bool sealed = true;
   for (const Eigen::Vector3i& c : vents)
-    if (label_(c) >= 0) outside_[label_(c)] = 1;
+    if (label_(c) >= 0) outside_[joined_[label_(c)]] = 1;
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3, d = (a + 2) % 3;
     Eigen::Vector3i c, face;
@@ -110,7 +152,7 @@ void AirPockets::findOutside(const GridSpec& grid, const SolidBoundary& boundary
           c[a] = high ? grid.cells[a] - 1 : 0;
           face = high ? c + Eigen::Vector3i::Unit(a) : c;
           if (label_(c) < 0 || !(boundary.open[a](face) > 0)) continue;
-          outside_[label_(c)] = 1;
+          outside_[joined_[label_(c)]] = 1;
           sealed = false;
         }
     }
@@ -124,7 +166,11 @@ void AirPockets::collect(const GridSpec& grid) {
   pockets_.clear();
   std::vector<std::int32_t> number(count_.size(), -1);
   for (std::size_t n = 0; n < count_.size(); ++n) {
-    if (outside_[n]) continue;
+    if (outside_[joined_[n]]) continue;
+    if (joined_[n] != static_cast<std::int32_t>(n)) {
+      number[n] = number[joined_[n]];
+      continue;
+    }
     number[n] = static_cast<std::int32_t>(pockets_.size());
     pockets_.emplace_back().cells.reserve(count_[n]);
   }

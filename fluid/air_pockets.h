@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fluid/connected_cells.h"
@@ -16,7 +17,8 @@ namespace spume::fluid {
 /// rule 5).
 inline constexpr int kLargestFilledPocket = 4;
 
-/// A connected set of air cells (phi >= 0) that does not reach an open domain boundary.
+/// Air cells (phi >= 0) that hang together, or are parted by films thinner than a cell, and do not reach an
+/// open domain boundary.
 struct AirPocket {
   std::vector<Eigen::Vector3i> cells;                  ///< in their order
   double gas = 0;                                      ///< its air volume, cut liquid cells included [m^3]
@@ -50,6 +52,11 @@ class AirPockets {
   const std::vector<AirPocket>& pockets() const { return pockets_; }
 
  private:
+  using Links = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+  void joinAcrossFilms(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary,
+                       int components);
+  void linkAirBeside(const SolidBoundary& boundary, const Eigen::Vector3i& c, Links& links) const;
   void findOutside(const GridSpec& grid, const SolidBoundary& boundary,
                    std::span<const Eigen::Vector3i> vents);
   void collect(const GridSpec& grid);
@@ -59,8 +66,10 @@ class AirPockets {
   ConnectedCells connected_;
   DenseField<std::int32_t> label_;
   std::vector<AirPocket> pockets_;
-  std::vector<std::uint8_t> outside_;  // per component of the air: reaches an open boundary, or is headspace
-  std::vector<std::ptrdiff_t> count_;  // cells of each component
+  std::vector<std::int32_t> joined_;   // first component of those that count as one with each component
+  std::vector<Links> links_;           // components that meet at a film, slab by slab
+  std::vector<std::uint8_t> outside_;  // per first component: reaches an open boundary, or is headspace
+  std::vector<std::ptrdiff_t> count_;  // cells of each first component and those joined to it
 };
 
 }  // namespace spume::fluid

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
+#include "fluid/disjoint_sets.h"
 #include "fluid/errors.h"
 
 namespace spume::fluid {
@@ -15,24 +15,6 @@ constexpr double kGasDeadband = 4e-9;
 // Largest error that can be drift. In one sub-step the surface errs by far less; more means that a pocket
 // opened in between, and its gas is what it holds now.
 constexpr double kLargestDrift = 0.1;
-
-/// Union-find over small integers; the root is the smallest member.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t of(std::size_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-  void unite(std::size_t a, std::size_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 }  // namespace
 
@@ -77,7 +59,7 @@ PocketBooks::Links PocketBooks::trace(const AirPockets& pockets, const MacVeloci
 
 std::vector<double> PocketBooks::deal(const AirPockets& pockets, const Links& links) const {
   const std::size_t now = pockets.pockets().size();
-  Groups groups(now + gas_.size());
+  DisjointSets groups(now + gas_.size());
   std::vector<char> linked(now + gas_.size(), 0);
   for (const auto& [to, from] : links) {
     groups.unite(to, now + from);

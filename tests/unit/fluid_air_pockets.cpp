@@ -53,6 +53,49 @@ TEST(AirPockets, FillsUpToFourCellsAndKeepsTheRest) {
   EXPECT_EQ(pockets.label()(3, 12, 3), -1);
 }
 
+/// Two cubes of air side by side, the film between them `film` cells thick and in the middle of a cell.
+DenseField<float> twoPockets(const GridSpec& grid, double film) {
+  const Eigen::Vector3d middle = grid.cellCentre(16, 10, 16), half = Eigen::Vector3d::Constant(3.2 * grid.dx);
+  const Eigen::Vector3d apart = Eigen::Vector3d::UnitX() * (half.x() + 0.5 * film * grid.dx);
+  return sampleCells(grid, [&](const Eigen::Vector3d& x) {
+    const auto depthIn = [&](const Eigen::Vector3d& centre) {
+      return (half - (x - centre).cwiseAbs()).minCoeff();
+    };
+    return std::max({x.y() - 0.14, depthIn(middle - apart), depthIn(middle + apart)});
+  });
+}
+
+TEST(AirPockets, AFilmThinnerThanACellPartsNoPockets) {
+  const GridSpec grid = boxGrid(32);
+  const SolidBoundary boundary = buildSolidBoundary(grid, DomainWalls{}, {}, 0);
+  AirPockets thin, thick;
+  thin.find(grid, twoPockets(grid, 0.9), boundary);
+  thick.find(grid, twoPockets(grid, 1.1), boundary);
+  ASSERT_EQ(thin.pockets().size(), 1u);
+  ASSERT_EQ(thick.pockets().size(), 2u);
+  EXPECT_EQ(thin.label()(13, 10, 16), thin.label()(19, 10, 16));
+  EXPECT_NE(thick.label()(13, 10, 16), thick.label()(19, 10, 16));
+  EXPECT_EQ(thin.pockets()[0].cells.size(),
+            thick.pockets()[0].cells.size() + thick.pockets()[1].cells.size());
+}
+
+TEST(AirPockets, APocketUnderAFilmThinnerThanACellIsOpen) {
+  const GridSpec grid = boxGrid(32);
+  const SolidBoundary boundary = buildSolidBoundary(grid, DomainWalls{}, {}, 0);
+  const auto pocketUnder = [&](double film) {
+    const double top = grid.cellCentre(0, 20, 0).y() + 0.5 * film * grid.dx;
+    const auto phi = sampleCells(grid, [&](const Eigen::Vector3d& x) {
+      const Eigen::Vector3d from = (x - Eigen::Vector3d(0.08, top - (film + 3.2) * grid.dx, 0.08)).cwiseAbs();
+      return std::max(x.y() - top, 3.2 * grid.dx - from.maxCoeff());
+    });
+    AirPockets pockets;
+    pockets.find(grid, phi, boundary);
+    return pockets.pockets().size();
+  };
+  EXPECT_EQ(pocketUnder(0.9), 0u);
+  EXPECT_EQ(pocketUnder(1.1), 1u);
+}
+
 TEST(AirPockets, TheHeadspaceOfASealedBoxIsOpenAirThatStays) {
   const GridSpec grid = boxGrid(8);
   const SolidBoundary boundary = buildSolidBoundary(grid, sealed(), {}, 0);
