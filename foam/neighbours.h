@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "foam/foam_topology.h"
-#include "foam/pair_rows.h"
 
 namespace spume::foam {
 
@@ -15,11 +14,11 @@ struct Neighbours {
   std::vector<std::int32_t> other;  ///< the neighbour
   std::vector<std::int32_t> pair;   ///< index of the pair in FoamTopology::overlaps
 
-  /// O(n + pairs).
+  /// `pairs` sorted by (i, j), i < j, as FoamTopology has them. O(n + pairs).
   void build(std::size_t bubbles, const std::vector<OverlapPair>& pairs);
 
  private:
-  PairRows rows_;
+  std::vector<std::int32_t> next_;  ///< free place of each row, while they fill
 };
 
 }  // namespace spume::foam

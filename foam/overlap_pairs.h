@@ -4,19 +4,18 @@
 #include <cstdint>
 #include <vector>
 
-#include "foam/pair_rows.h"
+#include "foam/pair_sweep.h"
 
 namespace spume::foam {
 
 /// For every bubble the others near enough to overlap it now or soon: a Verlet list. Two bubbles are
 /// candidates when their distance is below (1 + kSkin)(r_i + r_j) at the time of building, so the list holds
-/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. Building is O(n)
-/// in the number of bubbles: a hierarchical grid with one level per radius octave finds each pair from its
-/// smaller bubble (performance, "Foam geometry").
+/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. `pair_sweep` finds
+/// the pairs.
 ///
-/// Bubbles are numbered here by *rank*: sorted by radius octave, then Morton cell, so that neighbours are
-/// near in memory. Rows list candidates by input index, so that what is summed along a row does not depend on
-/// when the list was built.
+/// Bubbles are numbered here by *rank*, along a curve through space: neighbours are near in memory. Rows
+/// list candidates by input index, so that what is summed along a row does not depend on when the list was
+/// built.
 class OverlapPairs {
  public:
   /// Free motion before a rebuild, in radii: larger means fewer rebuilds but longer rows (they grow with its
@@ -33,31 +32,22 @@ class OverlapPairs {
   const std::vector<std::int32_t>& order() const { return order_; }
   const std::vector<std::int32_t>& rank() const { return rank_; }
   /// The candidates of rank s are slots rowStart()[s] .. rowStart()[s + 1] - 1.
-  const std::vector<std::int32_t>& rowStart() const { return rows_.start; }
+  const std::vector<std::int32_t>& rowStart() const { return rowStart_; }
   /// Rank of the candidate in each slot.
   const std::vector<std::int32_t>& candidate() const { return candidate_; }
   /// The slot that holds the same pair seen from the other bubble.
   const std::vector<std::int32_t>& mirror() const { return mirror_; }
 
  private:
-  struct Levels;
-  class CellSearch;
-  struct Sorted {
-    Eigen::Vector3d position;
-    double radius;
-  };
-  using Half = std::vector<std::pair<std::int32_t, std::int32_t>>;
-
   bool stillValid(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) const;
-  Levels sortIntoCells();
-  std::vector<Half> findPairs(const Levels& levels) const;
-  void fillRows(const std::vector<Half>& found);
+  void fillRows(const std::vector<PairSweep::Pairs>& found);
+  void findMirrors();
 
   std::vector<Eigen::Vector3d> builtPosition_;  ///< by input index
   std::vector<double> builtRadius_;
-  std::vector<Sorted> sorted_;  ///< the same by rank
-  std::vector<std::int32_t> order_, rank_, candidate_, mirror_;
-  PairRows rows_;
+  std::vector<std::int32_t> order_, rank_, rowStart_, candidate_, mirror_;
+  std::vector<std::uint64_t> entry_;  ///< input index and rank of each slot's candidate
+  std::vector<std::int32_t> next_;    ///< free slot of each row, while they fill
 };
 
 }  // namespace spume::foam
