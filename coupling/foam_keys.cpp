@@ -76,6 +76,8 @@ void addLifeKeys(KeyTableBuilder<foam::FoamParams>& table) {
       .choice("volume_mode", &FoamParams::volumeMode, {"relax", "newton"},
               "cells regain their gas each by itself, or solved together")
       .key("volume_rate", &FoamParams::volumeRate, {0, 1000, "1/s"}, "gamma, how fast a cell regains its gas")
+      .key("volume_tolerance", &FoamParams::volumeTolerance, {1e-10, 0.1, "-"},
+           "newton: largest error of a cell's volume it leaves")
       .key("radius_limit", &FoamParams::radiusLimit, {1.1, 10, "-"},
            "largest radius over that of the free gas")
       .key("bursting", &FoamParams::bursting, "bubbles burst; their clock runs above water only")

@@ -11,6 +11,10 @@ namespace {
 // Least distance of the surface from a liquid cell's centre [dx]: bounds the matrix's condition (model,
 // Section 3).
 constexpr double kLeastTheta = 0.01;
+// The same for a face almost shut by a solid [dx]: kLeastThetaShut (1 - open). The cell's other faces
+// outweigh one that is hardly open, and its pressure does not come near that of a surface which is; over a
+// true theta of 0.01 the difference would drive liquid through the slit at ten times the speed around it.
+constexpr double kLeastThetaShut = 0.5;
 // Distance of an open domain boundary from the centres beside it [dx].
 constexpr double kBoundaryTheta = 0.5;
 // The residual is compared with the right-hand side scaled to this diagonal: six full neighbours. Without it
@@ -42,7 +46,8 @@ Surface ProjectionSystem::surfaceBeside(const Eigen::Vector3i& c, int axis, int 
     if (rise > 0) theta = std::min(kBoundaryTheta, -here / rise);
   }
   const double open = openTowards(c, axis, side);
-  return {static_cast<float>(open / std::max(theta, kLeastTheta)), theta};
+  const double least = std::max(kLeastTheta, kLeastThetaShut * (1 - open));
+  return {static_cast<float>(open / std::max(theta, least)), theta};
 }
 
 void ProjectionSystem::findComponents() {

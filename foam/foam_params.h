@@ -70,6 +70,7 @@ struct FoamParams {
 
   VolumeMode volumeMode = VolumeMode::relax;  ///< each cell by itself, or all with their neighbours in mind
   double volumeRate = 10;                     ///< gamma [1/s], 0 to 1000
+  double volumeTolerance = 1e-3;              ///< |V - V0| / V0 newton leaves at most [-], 1e-10 to 0.1
   double radiusLimit = 2;                     ///< largest r / r0 [-], 1.1 to 10
 
   bool bursting = true;

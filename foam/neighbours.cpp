@@ -4,7 +4,8 @@
 
 namespace spume::foam {
 
-/// A row meets its earlier neighbours in their order before it is itself the earlier one: it comes out sorted.
+/// A row meets its earlier neighbours in their order before it is itself the earlier one: it comes out
+/// sorted.
 void Neighbours::build(std::size_t bubbles, const std::vector<OverlapPair>& pairs) {
   start.assign(bubbles + 1, 0);
   for (const OverlapPair& pair : pairs) ++start[pair.i + 1], ++start[pair.j + 1];

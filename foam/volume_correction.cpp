@@ -10,9 +10,10 @@
 namespace spume::foam {
 namespace {
 
-/// Largest change of a radius in one projection: the derivatives hold no further.
-constexpr double kLargestChange = 0.1;
-constexpr double kNewtonTolerance = 1e-6;  ///< relative residual, far below the error of linearising
+/// Largest growth of a radius in one projection: the derivatives hold no further. From above they lead
+/// towards the answer from any distance.
+constexpr double kLargestGrowth = 0.25;
+constexpr double kNewtonTolerance = 1e-3;  ///< relative residual, below the error of linearising
 
 double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
@@ -40,11 +41,14 @@ void noteVolumes(const FoamTopology& topology, BubbleStore& bubbles) {
   bubbles.hidden = topology.hidden;
 }
 
-double worstVolumeError(const BubbleStore& bubbles) {
-  const auto errorOf = [&](std::size_t i) {
-    return bubbles.hidden[i] || bubbles.clamped[i] ? 0 : std::abs(bubbles.volume[i] / bubbles.gas[i] - 1);
-  };
-  return reduceIndices(bubbles.size(), 0.0, errorOf, [](double a, double b) { return std::max(a, b); });
+std::vector<std::int32_t> cellsOff(const BubbleStore& bubbles, double tolerance) {
+  std::vector<std::int32_t> rows;
+  for (std::size_t i = 0; i < bubbles.size(); ++i) {
+    const bool counts = !bubbles.hidden[i] && !bubbles.clamped[i];
+    if (counts && std::abs(bubbles.volume[i] / bubbles.gas[i] - 1) > tolerance)
+      rows.push_back(static_cast<std::int32_t>(i));
+  }
+  return rows;
 }
 
 void correctVolumes(const FoamParams& params, const FoamTopology& topology, double dt, BubbleStore& bubbles) {
@@ -59,20 +63,22 @@ void correctVolumes(const FoamParams& params, const FoamTopology& topology, doub
   });
 }
 
-void projectVolumes(const FoamParams& params, const FoamTopology& topology, BubbleStore& bubbles) {
+void projectVolumes(const FoamParams& params, const FoamTopology& topology, const std::vector<char>& fixed,
+                    BubbleStore& bubbles) {
   std::vector<double> missing(bubbles.size(), 0.0), change;
-  std::vector<char> atLimit(bubbles.size(), 0);
+  std::vector<char> stays = fixed;
+  stays.resize(bubbles.size(), 0);
   for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (!hasCell(topology, i)) continue;
+    if (!hasCell(topology, i) || stays[i]) continue;
     missing[i] = bubbles.gas[i] - topology.volume[i];
-    atLimit[i] = bubbles.clamped[i] && missing[i] > 0;
+    stays[i] = bubbles.clamped[i] && missing[i] > 0;
   }
-  solveWeightChanges(topology, bubbles.radius, missing, atLimit, kNewtonTolerance, change);
+  solveWeightChanges(topology, bubbles.radius, missing, stays, kNewtonTolerance, change);
   for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (!hasCell(topology, i) || atLimit[i]) continue;
-    const double r = bubbles.radius[i], most = 1 + kLargestChange;
-    setRadius(params, i, std::clamp(std::sqrt(std::max(r * r + change[i], 0.0)), r / most, r * most),
-              bubbles);
+    if (!hasCell(topology, i) || stays[i]) continue;
+    const double r = bubbles.radius[i], wanted = std::sqrt(std::max(r * r + change[i], 0.0));
+    const double least = gasRadius(bubbles.gas[i]);  // no smaller ball holds the gas
+    setRadius(params, i, std::max(least, std::min(wanted, r * (1 + kLargestGrowth))), bubbles);
   }
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "foam/bubble_store.h"
 #include "foam/foam_params.h"
 #include "foam/foam_topology.h"
@@ -19,20 +22,19 @@ void correctVolumes(const FoamParams& params, const FoamTopology& topology, doub
 /// Whether the volumes are held in full, at the end of every step: newton, unless its rate is 0.
 bool holdsVolumes(const FoamParams& params);
 
-/// Error left when volumes are held, |V - V0| / V0: far below any that shows.
-inline constexpr double kVolumeTolerance = 1e-8;
-
 /// Copies volumes and hidden flags into the store.
 void noteVolumes(const FoamTopology& topology, BubbleStore& bubbles);
 
-/// Largest |V - V0| / V0 of the volumes noted, over bubbles neither hidden nor clamped.
-double worstVolumeError(const BubbleStore& bubbles);
+/// Rows of the bubbles whose noted volume is off by more than `tolerance` x V0: neither hidden nor clamped.
+std::vector<std::int32_t> cellsOff(const BubbleStore& bubbles, double tolerance);
 
 /// One Newton step of all radii together, by the derivatives of the volumes: what one cell gains its
-/// neighbours do not lose. r <= limit r0; flags the clamped, which stay as they are while they lack gas, so
-/// that their neighbours come to hold theirs. Converges in a few steps, each after measuring anew. Deviation:
-/// [Busaryev 2012, 5.2] lets the volumes of moving bubbles lag; held in full they make a foam stiffer, which
-/// forces/volume_response brings into the implicit step.
-void projectVolumes(const FoamParams& params, const FoamTopology& topology, BubbleStore& bubbles);
+/// neighbours do not lose. r0 <= r <= limit r0; flags the clamped, which stay as they are while they lack
+/// gas, so that their neighbours come to hold theirs. `fixed`: rows whose balls stay as they are; empty where
+/// none is. Converges in a few steps, each after measuring anew. Deviation: [Busaryev 2012, 5.2] lets the
+/// volumes of moving bubbles lag; held in full they make a foam stiffer, which forces/volume_response brings
+/// into the implicit step.
+void projectVolumes(const FoamParams& params, const FoamTopology& topology, const std::vector<char>& fixed,
+                    BubbleStore& bubbles);
 
 }  // namespace spume::foam

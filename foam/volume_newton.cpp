@@ -1,6 +1,6 @@
 #include "foam/volume_newton.h"
 
-#include <algorithm>
+#include <functional>
 
 #include "foam/parallel.h"
 
@@ -13,43 +13,54 @@ constexpr int kMaxIterations = 200;
 using Column = std::vector<double>;
 
 double dot(const Column& a, const Column& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  return reduceIndices(
+      a.size(), 0.0, [&](std::size_t i) { return a[i] * b[i]; }, std::plus<>());
 }
 
-/// The derivatives of the volumes by the weights, film by film.
+/// The derivatives of the volumes by the weights, row by row.
 class VolumeDerivatives {
  public:
   VolumeDerivatives(const FoamTopology& topology, const Column& radius, const std::vector<char>& fixed)
-      : films_(topology.films), coupling_(films_.size()), diagonal_(radius.size()) {
-    for (std::size_t i = 0; i < radius.size(); ++i) diagonal_[i] = topology.freeArea[i] / (2 * radius[i]);
-    for (std::size_t f = 0; f < films_.size(); ++f) {
-      coupling_[f] = films_[f].area / (2 * films_[f].distance);
-      diagonal_[films_[f].i] += coupling_[f], diagonal_[films_[f].j] += coupling_[f];
+      : start_(radius.size() + 1, 0), diagonal_(radius.size()) {
+    const std::vector<Film>& films = topology.films;
+    for (const Film& film : films) ++start_[film.i + 1], ++start_[film.j + 1];
+    for (std::size_t i = 0; i < radius.size(); ++i) start_[i + 1] += start_[i];
+    std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+    entry_.resize(start_.back());
+    for (const Film& film : films) {
+      const double coupling = film.area / (2 * film.distance);
+      entry_[next[film.i]++] = {film.j, coupling}, entry_[next[film.j]++] = {film.i, coupling};
     }
-    for (std::size_t i = 0; i < radius.size(); ++i)
-      if (fixed[i]) diagonal_[i] = 0;
-    for (std::size_t f = 0; f < films_.size(); ++f)
-      if (fixed[films_[f].i] || fixed[films_[f].j]) coupling_[f] = 0;
+    forEachIndex(radius.size(), [&](std::size_t i) {
+      double sum = topology.freeArea[i] / (2 * radius[i]);
+      for (std::int32_t e = start_[i]; e < start_[i + 1]; ++e) {
+        sum += entry_[e].coupling;
+        if (fixed[i] || fixed[entry_[e].other]) entry_[e].coupling = 0;
+      }
+      diagonal_[i] = fixed[i] ? 0 : sum;
+    });
   }
 
   void apply(const Column& x, Column& out) const {
-    for (std::size_t i = 0; i < x.size(); ++i) out[i] = diagonal_[i] * x[i];
-    for (std::size_t f = 0; f < films_.size(); ++f) {
-      const Film& film = films_[f];
-      out[film.i] -= coupling_[f] * x[film.j], out[film.j] -= coupling_[f] * x[film.i];
-    }
+    forEachIndex(x.size(), [&](std::size_t i) {
+      double sum = diagonal_[i] * x[i];
+      for (std::int32_t e = start_[i]; e < start_[i + 1]; ++e) sum -= entry_[e].coupling * x[entry_[e].other];
+      out[i] = sum;
+    });
   }
   /// Divides by the diagonal; a row without one has nothing to say.
-  void precondition(const Column& x, Column& out) const {
-    for (std::size_t i = 0; i < x.size(); ++i) out[i] = diagonal_[i] > 0 ? x[i] / diagonal_[i] : 0;
-  }
+  double precondition(std::size_t i, double x) const { return diagonal_[i] > 0 ? x / diagonal_[i] : 0; }
   bool isEmpty(std::size_t i) const { return !(diagonal_[i] > 0); }
 
  private:
-  const std::vector<Film>& films_;
-  Column coupling_, diagonal_;
+  struct Entry {
+    std::int32_t other;
+    double coupling;  ///< [m]
+  };
+
+  std::vector<std::int32_t> start_;  ///< n + 1; entries of each row
+  std::vector<Entry> entry_;
+  Column diagonal_;
 };
 
 }  // namespace
@@ -59,21 +70,24 @@ void solveWeightChanges(const FoamTopology& topology, const std::vector<double>&
                         std::vector<double>& change) {
   const std::size_t n = radius.size();
   const VolumeDerivatives matrix(topology, radius, fixed);
-  Column residual = wanted, direction(n), step(n), scaled(n);
+  Column residual(n), direction(n), step(n), scaled(n);
   change.assign(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i)
-    if (matrix.isEmpty(i)) residual[i] = 0;
-  const double goal = tolerance * tolerance * dot(residual, residual);
-  matrix.precondition(residual, direction);
-  double slope = dot(residual, direction);
-  for (int iteration = 0; iteration < kMaxIterations && dot(residual, residual) > goal; ++iteration) {
+  forEachIndex(n, [&](std::size_t i) {
+    residual[i] = matrix.isEmpty(i) ? 0 : wanted[i];
+    direction[i] = matrix.precondition(i, residual[i]);
+  });
+  double size = dot(residual, residual), slope = dot(residual, direction);
+  const double goal = tolerance * tolerance * size;
+  for (int iteration = 0; iteration < kMaxIterations && size > goal; ++iteration) {
     matrix.apply(direction, step);
     const double length = slope / dot(direction, step);
-    for (std::size_t i = 0; i < n; ++i) change[i] += length * direction[i], residual[i] -= length * step[i];
-    matrix.precondition(residual, scaled);
+    forEachIndex(n, [&](std::size_t i) {
+      change[i] += length * direction[i], residual[i] -= length * step[i];
+      scaled[i] = matrix.precondition(i, residual[i]);
+    });
     const double next = dot(residual, scaled), turn = next / slope;
-    for (std::size_t i = 0; i < n; ++i) direction[i] = scaled[i] + turn * direction[i];
-    slope = next;
+    forEachIndex(n, [&](std::size_t i) { direction[i] = scaled[i] + turn * direction[i]; });
+    slope = next, size = dot(residual, residual);
   }
 }
 

@@ -34,9 +34,9 @@ void dropPlanes(std::size_t bubbles, FoamTopology& out) {
 
 }  // namespace
 
-bool isAnyCutByWall(const BubbleStore& bubbles, const Eigen::VectorXd& psi) {
-  for (std::size_t i = 0; i < bubbles.size(); ++i)
-    if (psi[static_cast<Eigen::Index>(i)] < kCutByWall * bubbles.radius[i]) return true;
+bool isAnyCutByWall(const std::vector<double>& radius, const Eigen::VectorXd& psi) {
+  for (std::size_t i = 0; i < radius.size(); ++i)
+    if (psi[static_cast<Eigen::Index>(i)] < kCutByWall * radius[i]) return true;
   return false;
 }
 

@@ -13,8 +13,8 @@ namespace spume::foam {
 /// behind the plane holds 3e-4 of the ball and is not worth a plane.
 inline constexpr double kCutByWall = 0.98;
 
-/// Whether there is a bubble whose distance `psi` [m] to the nearest solid is that small.
-bool isAnyCutByWall(const BubbleStore& bubbles, const Eigen::VectorXd& psi);
+/// Whether there is a bubble of `radius` [m] whose distance `psi` [m] to the nearest solid is that small.
+bool isAnyCutByWall(const std::vector<double>& radius, const Eigen::VectorXd& psi);
 
 /// Power cells of bubbles at solids, cut by the planes of the solids, exactly. A plane enters the power
 /// diagram as a ball behind it: one at x - r n of squared radius 2 r (r - psi) has the plane as its radical

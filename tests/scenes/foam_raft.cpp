@@ -79,6 +79,7 @@ TEST(FoamRaft, NewtonsVolumesComeToRestExactly) {
   for (const double dt : {0.005, 0.02}) {
     FoamParams params = makePreset(Preset::physical);
     params.volumeMode = VolumeMode::newton;
+    params.volumeTolerance = 1e-8;
     const Settled raft(params, 300, 0.375e-3, 1.25e-3, 30e-3, dt);
     EXPECT_LE(rmsSpeed(raft.bubbles), kRest) << dt;
     EXPECT_LE(raft.report.volumeErrorMax, kExact) << dt;
