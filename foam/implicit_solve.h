@@ -35,6 +35,8 @@ class ImplicitSolve {
   /// The same when only `a.own` has changed since the last call of either: what depends on couplings is kept.
   SolveReport solveAgain(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
                          Vectors3& x);
+  /// b - A x of each row as the last of these left it [kg m/s].
+  const Vectors3& left() const { return residual_; }
 
  private:
   int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, double& norm,

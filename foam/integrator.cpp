@@ -111,6 +111,7 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
   contacts_.begin(walls, motion_, mass_, dt, system_, impulse_);
   // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
   forEachIndex(n, [&](std::size_t i) { change_[i] = lone_[i].velocity - motion_[i].velocity; });
+  contacts_.stopHeld(motion_, change_);
   const SolveReport report = solveWithContacts(dt);
   if (!report.converged) failToConverge(report, n, dt);
   forEachIndex(n, [&](std::size_t i) { velocity_[i] = motion_[i].velocity + change_[i]; });
@@ -129,7 +130,7 @@ SolveReport Integrator::solveWithContacts(double dt) {
                                        : solver_.solveAgain(system_, impulse_, aim, left, change_);
     report = {report.iterations + done.iterations, done.residual, done.converged,
               report.fellBack || done.fellBack};
-    const bool settled = !contacts_.update(motion_, change_, dt, system_, impulse_);
+    const bool settled = !contacts_.update(motion_, solver_.left(), dt, change_, system_, impulse_);
     if (!done.converged || (settled && aim <= goal)) break;
     aim = settled ? goal : std::max(goal, kAimStep * aim);
   }

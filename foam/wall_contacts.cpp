@@ -49,6 +49,7 @@ void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearM
                          const std::vector<double>& mass, double dt, BlockSystem& system, Vectors3& impulse) {
   walls_ = std::move(walls);
   closed_.assign(grip_.size(), 0), pin_.assign(grip_.size(), Pin::none);
+  slide_.resize(grip_.size());
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
     for (int k = 0; k < walls_[i].count; ++k)
@@ -64,14 +65,26 @@ void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearM
   });
 }
 
-bool WallContacts::update(const std::vector<LinearMotion>& motion, const Vectors3& change, double dt,
-                          BlockSystem& system, Vectors3& impulse) {
+void WallContacts::stopHeld(const std::vector<LinearMotion>& motion, Vectors3& change) const {
+  forEachIndex(pin_.size(), [&](std::size_t i) {
+    if (pin_[i] != Pin::stuck) return;
+    const NearWall& wall = walls_[i].wall[0];
+    change[i] -= alongWall(wall) * (motion[i].velocity + change[i] - wall.velocity);
+  });
+}
+
+bool WallContacts::update(const std::vector<LinearMotion>& motion, const Vectors3& left, double dt,
+                          Vectors3& change, BlockSystem& system, Vectors3& impulse) {
   const auto updateBubble = [&](std::size_t i) {
     const Vector3d velocity = motion[i].velocity + change[i];
     bool changed = false;
     for (int k = 0; k < walls_[i].count; ++k)
       changed |= updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);
-    if (pin_[i] == Pin::stuck) changed |= releasePin(i, motion[i].velocity, velocity, dt, system, impulse);
+    const double error = left[i].norm();
+    if (pin_[i] == Pin::stuck)
+      changed |= releasePin(i, motion[i].velocity, velocity, error, dt, system, impulse);
+    else if (pin_[i] == Pin::sliding)
+      changed |= takeAgain(i, motion[i].velocity, error, dt, change[i], system, impulse);
     return changed;
   };
   return reduceIndices(grip_.size(), false, updateBubble, std::logical_or<>());
@@ -103,15 +116,30 @@ void WallContacts::addHold(std::size_t i, double sign, const Vector3d& predicted
   impulse[i] -= hold * (predicted - wall.velocity);
 }
 
-bool WallContacts::releasePin(std::size_t i, const Vector3d& predicted, const Vector3d& velocity, double dt,
-                              BlockSystem& system, Vectors3& impulse) {
+bool WallContacts::releasePin(std::size_t i, const Vector3d& predicted, const Vector3d& velocity,
+                              double error, double dt, BlockSystem& system, Vectors3& impulse) {
   const NearWall& wall = walls_[i].wall[0];
   const Vector3d pull = grip_[i].hold * (alongWall(wall) * (velocity - wall.velocity));
   const double strength = dt * grip_[i].pinning;
-  if (pull.norm() <= strength) return false;
+  if (pull.norm() <= strength + error) return false;
   pin_[i] = Pin::sliding;
+  slide_[i] = pull.normalized();
   addHold(i, -1, predicted, system, impulse);
-  impulse[i] -= strength * pull.normalized();
+  impulse[i] -= strength * slide_[i];
+  return true;
+}
+
+/// Friction stops a bubble, it does not send it back: one that would move against the pull that freed it was
+/// freed by a push that others have taken up since.
+bool WallContacts::takeAgain(std::size_t i, const Vector3d& predicted, double error, double dt,
+                             Vector3d& change, BlockSystem& system, Vectors3& impulse) {
+  const NearWall& wall = walls_[i].wall[0];
+  const Vector3d slip = alongWall(wall) * (predicted + change - wall.velocity);
+  if (!(-kGiveWay * grip_[i].hold * slide_[i].dot(slip) > error)) return false;
+  change -= slip;
+  pin_[i] = Pin::held;
+  addHold(i, 1, predicted, system, impulse);
+  impulse[i] += dt * grip_[i].pinning * slide_[i];
   return true;
 }
 
