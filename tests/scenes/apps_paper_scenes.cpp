@@ -38,10 +38,10 @@ class Watched {
     liquid->sampler()->psi(bubbles.positions(), toSolids);
   }
 
-  /// Every bubble is accounted for, none is in a solid, no more than a share has left, and the gas adds up.
-  void expectSound(double leavers = 0) const {
+  /// Every bubble is accounted for, none is in a solid or has left, and the gas adds up.
+  void expectSound() const {
     EXPECT_EQ(born - ended, simulation.bubbles().size());
-    EXPECT_LE(static_cast<double>(left), leavers * static_cast<double>(born));
+    EXPECT_EQ(left, 0u);
     EXPECT_EQ(insideSolids(simulation.bubbles(), toSolids), 0u);
     EXPECT_LT(std::abs(last.gas.imbalance()), kLedger * last.gas.entered());
   }
@@ -135,8 +135,7 @@ Watched coarseCoke(const std::string& name) {
 }
 
 void expectPoured(const Watched& coke) {
-  constexpr double kSplashed = 0.02;  // of the bubbles: what a jet into an open mug throws out
-  coke.expectSound(kSplashed);
+  coke.expectSound();
   constexpr double kFlux = 0.4 * std::numbers::pi * 0.009 * 0.009, kOpen = 0.5;  // [m^3/s], [s]
   // The nozzle's own cells are filled once, and volume control follows the splash with a delay.
   constexpr double kNozzle = 0.15, kVolume = 0.02;
