@@ -53,8 +53,8 @@ ConjugateGradient::ConjugateGradient(const Eigen::Vector3i& cells) : direction_(
 
 /// multigrid.solution() = M r / norm; returns r.M r / norm. The float cycle works on the residual scaled to a
 /// largest entry of 1: a pool nearly at rest would otherwise run into denormal numbers.
-double ConjugateGradient::precondition(Multigrid& multigrid, const DenseField<double>& residual,
-                                       double norm) const {
+double ConjugateGradient::precondition(Multigrid& multigrid, const DenseField<double>& residual, double norm,
+                                       const PocketUnknowns& pockets) const {
   const auto& rows = multigrid.finest().rows;
   forEachActiveRow(rows, [&](const ActiveRow& row) {
     const double* __restrict from = &residual(row.i, row.j, 0);
@@ -62,30 +62,35 @@ double ConjugateGradient::precondition(Multigrid& multigrid, const DenseField<do
     const double scale = 1 / norm;
     for (int k = row.begin; k < row.end; ++k) to[k] = static_cast<float>(scale * from[k]);
   });
+  std::vector<float>& pocketRhs = multigrid.pocketRightHandSide();
+  pocketRhs.clear();
+  for (const double value : pockets.residual) pocketRhs.push_back(static_cast<float>(value / norm));
   multigrid.cycle();
-  return reduceActiveRows(
+  const double inCells = reduceActiveRows(
       rows,
       [&](const ActiveRow& row) {
         return dotProduct(&residual(row.i, row.j, row.begin), &multigrid.solution()(row.i, row.j, row.begin),
                           row.end - row.begin);
       },
       std::plus<>());
+  return inCells + pockets.dot(multigrid.pocketSolution());
 }
 
 SolveReport ConjugateGradient::solve(Multigrid& multigrid, DenseField<double>& b, DenseField<double>& x,
                                      double tolerance, int maxIterations, PocketUnknowns& pockets) {
   const PressureMatrix& matrix = multigrid.finest();
   SolveReport report;
+  multigrid.border(pockets);
   report.residual = std::max(maxNorm(matrix.rows, b), pockets.largestResidual());
   x.fill(0);
   direction_.fill(0);
   double previous = 0;
   while (report.residual > tolerance && report.iterations < maxIterations) {
     const double norm = report.residual;
-    const double product = norm * precondition(multigrid, b, norm) + pockets.precondition();
+    const double product = norm * precondition(multigrid, b, norm, pockets);
     const double factor = previous != 0 ? product / previous : 0;
     turn(matrix.rows, norm, multigrid.solution(), factor, direction_);
-    pockets.turn(factor);
+    pockets.turn(norm, multigrid.pocketSolution(), factor);
     previous = product;
     const double within = matrix.multiply(direction_, image_);
     const double energy = within + pockets.multiply(direction_, image_);

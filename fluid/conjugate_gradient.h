@@ -25,7 +25,8 @@ class ConjugateGradient {
                     int maxIterations, PocketUnknowns& pockets);
 
  private:
-  double precondition(Multigrid& multigrid, const DenseField<double>& residual, double norm) const;
+  double precondition(Multigrid& multigrid, const DenseField<double>& residual, double norm,
+                      const PocketUnknowns& pockets) const;
   DenseField<double> direction_, image_;
 };
 

@@ -17,6 +17,7 @@ constexpr int kCoarsestSweeps = 6;
 constexpr int kFineSweeps = 2, kCoarseSweeps = 3;
 // Cells of a row handled at once: what is made of them on the way stays in the first-level cache.
 constexpr int kPiece = 128;
+constexpr int kRed = 0, kBlack = 1;  // parities of i + j + k
 
 /// One coarse weight or excess: half the sum of the fine values at the given offsets.
 template <int count>
@@ -118,6 +119,11 @@ void Multigrid::coarsen() {
   }
 }
 
+void Multigrid::border(const PocketUnknowns& pockets) {
+  levels_.front().border.assemble(pockets);
+  for (std::size_t n = 1; n < levels_.size(); ++n) levels_[n].border.coarsen(levels_[n - 1].border);
+}
+
 void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
   // Children beyond an odd edge lie in the ghosts, where all coefficients are 0.
   static const Eigen::Vector3i kFace[3][4] = {{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}},
@@ -132,19 +138,26 @@ void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
   });
 }
 
-void Multigrid::cycle(std::size_t depth) {
-  constexpr int kRed = 0, kBlack = 1;
+void Multigrid::cycle(std::size_t depth, const std::vector<float>& pocketRhs) {
   Level& level = levels_[depth];
   const int sweeps = depth + 1 == levels_.size() ? kCoarsestSweeps : depth == 0 ? kFineSweeps : kCoarseSweeps;
   startSmooth(level);
+  level.border.start(pocketRhs);
   smooth(level, kBlack);
-  for (int n = 1; n < sweeps; ++n) smooth(level, kRed), smooth(level, kBlack);
+  level.border.relax(level.x, level.rhs);
+  for (int n = 1; n < sweeps; ++n) {
+    smooth(level, kRed), smooth(level, kBlack);
+    level.border.relax(level.x, level.rhs);
+  }
   if (depth + 1 < levels_.size()) {
     restrictResidual(level, levels_[depth + 1]);
-    cycle(depth + 1);
+    cycle(depth + 1, {});  // the pockets were relaxed last: no residual is left there
     addCorrection(levels_[depth + 1], level);
   }
-  for (int n = 0; n < sweeps; ++n) smooth(level, kBlack), smooth(level, kRed);
+  for (int n = 0; n < sweeps; ++n) {
+    level.border.relax(level.x, level.rhs);
+    smooth(level, kBlack), smooth(level, kRed);
+  }
 }
 
 /// The first red sweep from x = 0.

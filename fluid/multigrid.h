@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fluid/dense_field.h"
+#include "fluid/pocket_border.h"
 #include "fluid/pressure_system.h"
 
 namespace spume::fluid {
@@ -11,8 +12,8 @@ namespace spume::fluid {
 /// cells, interpolation is piecewise constant, and the coarse matrix is half the Galerkin product, which
 /// makes up for the over-stiff coarse space (model of [Braess 1995]): coarse weight = half the sum of its
 /// four fine ones, coarse excess = half the sum of its children's. Red-black Gauss-Seidel smooths, red first
-/// before the coarse correction and black first after it, so that x.My = y.Mx and conjugate gradients may use
-/// it.
+/// before the coarse correction and black first after it, pockets last before and first after it, so that
+/// x.My = y.Mx and conjugate gradients may use it.
 class Multigrid {
  public:
   explicit Multigrid(const Eigen::Vector3i& cells);
@@ -22,19 +23,24 @@ class Multigrid {
 
   /// Makes the coarse levels; call after finest() has been assembled and finished.
   void coarsen();
+  /// Borders the matrix with the unknowns of pockets, on all levels; until then it has none.
+  void border(const PocketUnknowns& pockets);
 
   DenseField<float>& rightHandSide() { return levels_.front().rhs; }  ///< 0 where there is no unknown
   const DenseField<float>& solution() const { return levels_.front().x; }
-  /// solution() = M rightHandSide().
-  void cycle() { cycle(0); }
+  std::vector<float>& pocketRightHandSide() { return pocketRhs_; }  ///< empty: all 0
+  const std::vector<float>& pocketSolution() const { return levels_.front().border.solution(); }
+  /// solution() = M rightHandSide(), and so those of the pockets. With pockets it uses rightHandSide() up.
+  void cycle() { cycle(0, pocketRhs_); }
 
  private:
   struct Level {
     PressureMatrix matrix;
     DenseField<float> x, rhs;
+    PocketBorder border;
     explicit Level(const Eigen::Vector3i& cells) : matrix(cells), x(cells), rhs(cells) {}
   };
-  void cycle(std::size_t depth);
+  void cycle(std::size_t depth, const std::vector<float>& pocketRhs);
   static void aggregate(const PressureMatrix& fine, PressureMatrix& coarse);
   static void startSmooth(Level& level);
   static void smooth(Level& level, int colour);
@@ -43,6 +49,7 @@ class Multigrid {
   static void addCorrection(const Level& coarse, Level& fine);
 
   std::vector<Level> levels_;
+  std::vector<float> pocketRhs_;
 };
 
 }  // namespace spume::fluid

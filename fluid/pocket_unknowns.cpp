@@ -29,16 +29,15 @@ double PocketUnknowns::largestResidual(double diagonalLimit) const {
   return largest;
 }
 
-double PocketUnknowns::precondition() const {
+double PocketUnknowns::dot(const std::vector<float>& preconditioned) const {
   double product = 0;
-  for (std::size_t p = 0; p < residual.size(); ++p)
-    if (diagonal[p] > 0) product += residual[p] * residual[p] / diagonal[p];
+  for (std::size_t p = 0; p < residual.size(); ++p) product += residual[p] * preconditioned[p];
   return product;
 }
 
-void PocketUnknowns::turn(double factor) {
+void PocketUnknowns::turn(double scale, const std::vector<float>& preconditioned, double factor) {
   for (std::size_t p = 0; p < residual.size(); ++p)
-    direction_[p] = (diagonal[p] > 0 ? residual[p] / diagonal[p] : 0) + factor * direction_[p];
+    direction_[p] = scale * preconditioned[p] + factor * direction_[p];
 }
 
 double PocketUnknowns::multiply(const DenseField<double>& direction, DenseField<double>& image) {

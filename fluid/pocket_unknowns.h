@@ -39,10 +39,10 @@ class PocketUnknowns {
   double largestResidual() const;
   /// The same, each scaled down to a diagonal of at most `diagonalLimit`.
   double largestResidual(double diagonalLimit) const;
-  /// Residual . preconditioned residual.
-  double precondition() const;
-  /// direction = residual / diagonal + factor direction.
-  void turn(double factor);
+  /// Residual . `preconditioned` residual.
+  double dot(const std::vector<float>& preconditioned) const;
+  /// direction = scale preconditioned + factor direction.
+  void turn(double scale, const std::vector<float>& preconditioned, double factor);
   /// Completes image = matrix times direction: adds -B d to that of the cells; returns what the border adds
   /// to direction . image.
   double multiply(const DenseField<double>& direction, DenseField<double>& image);
