@@ -11,6 +11,12 @@ namespace {
 
 using Eigen::Vector4d;
 
+/// The residual's norm is guessed from the one the iteration knows; within kNear of the goal the guess is put
+/// right every kLook iterations. A look costs half an iteration, a guess left alone was found 1.6 times too
+/// high, which cost half as many iterations again.
+constexpr double kNear = 10;
+constexpr int kLook = 8;
+
 /// Partial sums of threads stand a cache line apart.
 constexpr std::size_t kSumStride = 8;
 
@@ -67,7 +73,8 @@ int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, co
   double scale = first / std::sqrt(slope);
   int iterations = 0;
   for (double momentum = 0; iterations < maxIterations && slope > 0; ++iterations) {
-    if (scale * std::sqrt(slope) <= goal) {
+    const double guess = scale * std::sqrt(slope);
+    if (guess <= goal || (guess <= kNear * goal && iterations % kLook == 0)) {
       const double exact = residual(a, factor);
       if (exact <= goal) break;
       scale = exact / std::sqrt(slope);

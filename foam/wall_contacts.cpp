@@ -1,5 +1,6 @@
 #include "foam/wall_contacts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -20,6 +21,11 @@ using Eigen::Vector3d;
 constexpr double kResolution = 1e-6;
 /// A stuck bubble gives way by this share of what it would do freely.
 constexpr double kGiveWay = 1e-6;
+/// Brakes are left as they are where friction is that of the pin to within this share.
+constexpr double kSameBrake = 0.05;
+/// Rounds of a solve after which brakes are set anew. What they leave of a crowd's slipping waits for the next
+/// step: a brake that lags takes energy, whatever it is.
+constexpr int kBrakeRounds = 2;
 
 /// Projection onto the plane of a wall.
 Matrix3d alongWall(const NearWall& wall) {
@@ -46,45 +52,39 @@ void WallContacts::describe(const FoamParams& params, const Surroundings& around
 }
 
 void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearMotion>& motion,
-                         const std::vector<double>& mass, double dt, BlockSystem& system, Vectors3& impulse) {
-  walls_ = std::move(walls);
-  closed_.assign(grip_.size(), 0), pin_.assign(grip_.size(), Pin::none);
-  slide_.resize(grip_.size());
+                         const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
+                         Vectors3& impulse) {
+  walls_ = std::move(walls), round_ = 0;
+  closed_.assign(grip_.size(), 0), brake_.assign(grip_.size(), 0.0);
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
+    const Vector3d velocity = motion[i].velocity + change[i];
     for (int k = 0; k < walls_[i].count; ++k)
-      updateContact(i, k, motion[i].velocity, motion[i].velocity, dt, system, impulse);
+      updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);
     if (grip.adhesion == 0 || walls_[i].count == 0) return;
     const NearWall& wall = walls_[i].wall[0];
     // Eq. 7, -s psi grad psi, implicit: the spring rests with the bubble's centre on the wall.
     system.own[i] += dt * dt * grip.adhesion * wall.away * wall.away.transpose();
     impulse[i] -= dt * grip.adhesion * wall.psiAfter(motion[i].velocity, dt) * wall.away;
     grip.hold = (mass[i] + dt * dt * grip.stiffness) / kGiveWay;
-    pin_[i] = Pin::stuck;
-    addHold(i, 1, motion[i].velocity, system, impulse);
-  });
-}
-
-void WallContacts::stopHeld(const std::vector<LinearMotion>& motion, Vectors3& change) const {
-  forEachIndex(pin_.size(), [&](std::size_t i) {
-    if (pin_[i] != Pin::stuck) return;
-    const NearWall& wall = walls_[i].wall[0];
-    change[i] -= alongWall(wall) * (motion[i].velocity + change[i] - wall.velocity);
+    const Vector3d slip = alongWall(wall) * (velocity - wall.velocity);
+    const double strength = dt * grip.pinning, speed = slip.norm();
+    const bool sticks = grip.hold * speed <= strength;
+    if (sticks) change[i] -= slip;
+    setBrake(i, sticks ? grip.hold : strength / speed, motion[i].velocity, system, impulse);
   });
 }
 
 bool WallContacts::update(const std::vector<LinearMotion>& motion, const Vectors3& left, double dt,
                           Vectors3& change, BlockSystem& system, Vectors3& impulse) {
+  const bool setsBrakes = round_++ < kBrakeRounds;
   const auto updateBubble = [&](std::size_t i) {
-    const Vector3d velocity = motion[i].velocity + change[i];
+    const Vector3d predicted = motion[i].velocity, velocity = predicted + change[i];
     bool changed = false;
     for (int k = 0; k < walls_[i].count; ++k)
-      changed |= updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);
-    const double error = left[i].norm();
-    if (pin_[i] == Pin::stuck)
-      changed |= releasePin(i, motion[i].velocity, velocity, error, dt, system, impulse);
-    else if (pin_[i] == Pin::sliding)
-      changed |= takeAgain(i, motion[i].velocity, error, dt, change[i], system, impulse);
+      changed |= updateContact(i, k, predicted, velocity, dt, system, impulse);
+    if (setsBrakes && brake_[i] > 0)
+      changed |= updateBrake(i, predicted, left[i].norm(), dt, change[i], system, impulse);
     return changed;
   };
   return reduceIndices(grip_.size(), false, updateBubble, std::logical_or<>());
@@ -108,38 +108,31 @@ bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& predicted
   return true;
 }
 
-void WallContacts::addHold(std::size_t i, double sign, const Vector3d& predicted, BlockSystem& system,
-                           Vectors3& impulse) const {
+void WallContacts::setBrake(std::size_t i, double brake, const Vector3d& predicted, BlockSystem& system,
+                            Vectors3& impulse) {
   const NearWall& wall = walls_[i].wall[0];
-  const Matrix3d hold = sign * grip_[i].hold * alongWall(wall);
-  system.own[i] += hold;
-  impulse[i] -= hold * (predicted - wall.velocity);
+  const Matrix3d more = (brake - brake_[i]) * alongWall(wall);
+  system.own[i] += more;
+  impulse[i] -= more * (predicted - wall.velocity);
+  brake_[i] = brake;
 }
 
-bool WallContacts::releasePin(std::size_t i, const Vector3d& predicted, const Vector3d& velocity,
-                              double error, double dt, BlockSystem& system, Vectors3& impulse) {
+/// Coulomb's law for one bubble while its neighbours keep their velocities. The slip v found with the brake b
+/// shows what it would take to stop the bubble, (D + b) v where D is all else that resists it; less than the
+/// pin's strength s stops it, otherwise the slip becomes ((D + b) v - s) / D.
+bool WallContacts::updateBrake(std::size_t i, const Vector3d& predicted, double error, double dt,
+                               Vector3d& change, BlockSystem& system, Vectors3& impulse) {
   const NearWall& wall = walls_[i].wall[0];
-  const Vector3d pull = grip_[i].hold * (alongWall(wall) * (velocity - wall.velocity));
-  const double strength = dt * grip_[i].pinning;
-  if (pull.norm() <= strength + error) return false;
-  pin_[i] = Pin::sliding;
-  slide_[i] = pull.normalized();
-  addHold(i, -1, predicted, system, impulse);
-  impulse[i] -= strength * slide_[i];
-  return true;
-}
-
-/// Friction stops a bubble, it does not send it back: one that would move against the pull that freed it was
-/// freed by a push that others have taken up since.
-bool WallContacts::takeAgain(std::size_t i, const Vector3d& predicted, double error, double dt,
-                             Vector3d& change, BlockSystem& system, Vectors3& impulse) {
-  const NearWall& wall = walls_[i].wall[0];
-  const Vector3d slip = alongWall(wall) * (predicted + change - wall.velocity);
-  if (!(-kGiveWay * grip_[i].hold * slide_[i].dot(slip) > error)) return false;
-  change -= slip;
-  pin_[i] = Pin::held;
-  addHold(i, 1, predicted, system, impulse);
-  impulse[i] += dt * grip_[i].pinning * slide_[i];
+  const Matrix3d along = alongWall(wall);
+  const Vector3d slip = along * (predicted + change - wall.velocity);
+  const double speed = slip.norm(), strength = dt * grip_[i].pinning, before = brake_[i];
+  const double other = 0.5 * (along * (system.diagonal(i) - before * along)).trace();
+  const double excess = (other + before) * speed - strength;
+  const bool sticks = excess <= error;
+  const double brake = sticks ? grip_[i].hold : std::min(grip_[i].hold, strength * other / excess);
+  if (std::abs(brake - before) <= kSameBrake * before) return false;
+  change -= sticks ? slip : (1 - excess / (other * speed)) * slip;
+  setBrake(i, brake, predicted, system, impulse);
   return true;
 }
 
