@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "foam/bubble_store.h"
 #include "foam/counter_random.h"
@@ -34,6 +35,15 @@ inline foam::StillPool emptySpace() {
   pool.gravity.setZero(), pool.surfaceHeight = -1e3;
   return foam::StillPool(pool);
 }
+
+/// Three numbers in [0, 1).
+inline Eigen::Vector3d randomVector(foam::CounterRandom& random) {
+  const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+  return {x, y, z};
+}
+
+/// "5 ms"
+inline std::string stepName(double dt) { return std::to_string(std::lround(1e3 * dt)) + " ms"; }
 
 /// Root mean square of the speeds [m/s].
 inline double rmsSpeed(const foam::BubbleStore& bubbles) {

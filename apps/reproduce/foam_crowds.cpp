@@ -11,11 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d randomVector(foam::CounterRandom& random) {
-  const double x = random.uniform(), y = random.uniform(), z = random.uniform();
-  return {x, y, z};
-}
-
 /// Momentum of a weightless cloud whose bubbles run into each other.
 std::vector<ResultRow> momentum(const StudyContext&) {
   constexpr int kBubbles = 200, kSteps = 100;
@@ -49,60 +44,6 @@ std::vector<ResultRow> momentum(const StudyContext&) {
                   .reference = "0",
                   .source = "exact"};
     rows.push_back(aimAtMost(row, (sum() - before).norm() / scale, 1e-12, "-"));
-  }
-  return rows;
-}
-
-/// Bubbles let rise in a square box, and what they do after 8 s.
-struct Settling {
-  foam::BubbleStore bubbles;
-  foam::FoamStepReport report;
-
-  Settling(foam::FoamParams params, int count, double smallest, double largest, double edge, double dt) {
-    constexpr double kTime = 8;
-    params.bursting = false;
-    foam::StillPoolParams box;
-    box.lower = {-edge / 2, -edge, -edge / 2}, box.upper = {edge / 2, edge, edge / 2};
-    box.closed = {true, true, true, false, true, true};
-    for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(count); ++i) {
-      foam::CounterRandom random(5, i, 2);
-      const double r = smallest + (largest - smallest) * random.uniform(), room = edge - 2 * r;
-      const Vector3d share = randomVector(random);
-      bubbles.add({.position = {(share.x() - 0.5) * room, -edge * (0.05 + 0.85 * share.y()),
-                                (share.z() - 0.5) * room},
-                   .radius = r});
-    }
-    const foam::StillPool pool(box);
-    foam::FoamSolver solver(params);
-    for (double t = 0; t < kTime; t += dt) report = solver.step(bubbles, pool, dt);
-  }
-};
-
-std::string stepName(double dt) { return std::to_string(std::lround(1e3 * dt)) + " ms"; }
-
-/// S22 and the aims of rest: rafts, with and without attraction, and piles.
-std::vector<ResultRow> rest(const StudyContext&) {
-  constexpr double kSmallRest = 1e-4, kLargeRest = 1e-3;  // [m/s]
-  std::vector<ResultRow> rows;
-  for (const foam::Preset preset : {foam::Preset::paper, foam::Preset::physical}) {
-    const bool paper = preset == foam::Preset::paper;
-    const std::string name = paper ? "paper" : "physical";
-    for (const bool drawn : {false, true})
-      for (const double dt : {0.005, 0.02}) {
-        foam::FoamParams params = foam::makePreset(preset);
-        if (drawn)
-          params.attractionLaw = paper ? foam::AttractionLaw::coefficient : foam::AttractionLaw::capillary;
-        const Settling raft(params, 300, 0.375e-3, 1.25e-3, 30e-3, dt);
-        ResultRow row{.resolution = "300 of r 0.375-1.25 mm, dt " + stepName(dt),
-                      .quantity = name + (drawn ? " with attraction" : "") + ": rms speed after 8 s"};
-        rows.push_back(aimAtMost(row, rmsSpeed(raft.bubbles), kSmallRest, "m/s"));
-      }
-    for (const double dt : {0.005, 0.02}) {
-      const Settling pile(foam::makePreset(preset), 300, 1.25e-3, 5e-3, 50e-3, dt);
-      ResultRow row{.resolution = "300 of r 1.25-5 mm, dt " + stepName(dt),
-                    .quantity = name + ", pile: rms speed after 8 s"};
-      rows.push_back(aimAtMost(row, rmsSpeed(pile.bubbles), kLargeRest, "m/s"));
-    }
   }
   return rows;
 }
@@ -188,7 +129,6 @@ std::vector<ResultRow> atAWall(const StudyContext&) {
 std::vector<Study> crowdStudies() {
   return {{"P", "momentum of a cloud", 1, momentum},
           {"Fig6", "bubbles between plates", 60, plates},
-          {"S22", "rafts and piles at rest", 200, rest},
           {"V12", "a bubble at a wall", 1, atAWall}};
 }
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "apps/reproduce/foam_bench.h"
 #include "apps/reproduce/foam_studies.h"
+#include "apps/reproduce/plateau_angles.h"
 #include "foam/power_cells.h"
 #include "foam/volume_newton.h"
 
@@ -39,21 +41,22 @@ foam::BubbleStore relaxedCluster(const std::vector<double>& radii) {
   return bubbles;
 }
 
-/// Worst angle between films that meet, against 120 degrees: the films of three bubbles stand square on the
-/// triangle of their centres.
-double angleError(const foam::BubbleStore& b) {
-  double worst = 0;
-  for (std::size_t i = 0; i < b.size(); ++i)
-    for (std::size_t j = 0; j < b.size(); ++j)
-      for (std::size_t k = 0; k < j; ++k) {
-        if (i == j || i == k) continue;
-        const Vector3d toJ = (b.position[j] - b.position[i]).normalized(),
-                       toK = (b.position[k] - b.position[i]).normalized();
-        const double angle = 180 - std::acos(toJ.dot(toK)) * 180 / std::numbers::pi;
-        worst = std::max(worst, std::abs(angle - 120));
-      }
-  return worst;
-}
+/// Worst angle between films that meet, against 120 degrees, and between borders, against acos(-1/3).
+struct AngleErrors {
+  double films = 0, borders = 0;  ///< [degrees]
+
+  explicit AngleErrors(const foam::BubbleStore& bubbles) {
+    foam::FoamTopology cells;
+    foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, cells);
+    const std::vector<std::uint8_t> all(bubbles.size(), 1);
+    const PlateauAngles angles = plateauAngles(bubbles.position, bubbles.radius, cells, all);
+    for (const double a : angles.films) films = std::max(films, std::abs(a - 120));
+    for (const double a : angles.borders)
+      borders = std::max(borders, std::abs(a - std::acos(-1.0 / 3) * 180 / std::numbers::pi));
+    if (angles.borders.empty()) borders = std::numeric_limits<double>::quiet_NaN();
+    if (angles.films.empty()) films = std::numeric_limits<double>::quiet_NaN();
+  }
+};
 
 /// G1: two, three and four equal bubbles.
 std::vector<ResultRow> equalClusters(const StudyContext&) {
@@ -80,8 +83,11 @@ std::vector<ResultRow> equalClusters(const StudyContext&) {
     rows.push_back(aimAtMost(distance, length, 1e-6, "-"));
     rows.push_back(aimAtMost(kept, volume, 1e-8, "-"));
     if (n == 2) continue;
-    ResultRow angle = row("angle between films off", "120 degrees");
-    rows.push_back(aimAtMost(angle, angleError(b), 0.01, "degrees"));
+    const AngleErrors errors(b);
+    ResultRow films = row("angle between films off", "120 degrees"),
+              borders = row("angle between borders off", "109.4712 degrees");
+    rows.push_back(aimAtMost(films, errors.films, 0.01, "degrees"));
+    if (n == 4) rows.push_back(aimAtMost(borders, errors.borders, 0.01, "degrees"));
   }
   return rows;
 }
@@ -100,7 +106,53 @@ std::vector<ResultRow> unequalPair(const StudyContext&) {
                   .reference = "0.578424",
                   .source = "exact, curved films",
                   .note = "flat films undersize the small bubble of a pair: the model's floor"};
-  return {aimAtMost(model, worst, 1.5e-6, "-"), reportOnly(truth, 100 * (small / 0.578424 - 1), "%")};
+  ResultRow apart{.quantity = "distance of the centres off the true double bubble",
+                  .reference = "0.880244",
+                  .source = "exact, curved films",
+                  .note = truth.note};
+  return {aimAtMost(model, worst, 1.5e-6, "-"), reportOnly(truth, 100 * (small / 0.578424 - 1), "%"),
+          reportOnly(apart, 100 * (length / 0.880244 - 1), "%")};
+}
+
+/// Largest film [r^2] between bubbles that faced each other across a corner where more than four cells met:
+/// the corners of an octahedron or, without the last, of a square pyramid, off by a millionth of a radius,
+/// after a time.
+double openedFilm(int corners) {
+  constexpr double kRadius = 1e-3, kOff = 1e-6, kTime = 20, kStep = 0.005;  // [m], [r], [s], [s]
+  const double half = 1.15 * kRadius / std::numbers::sqrt2;  // edges of about their rest length
+  const Vector3d place[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  foam::BubbleStore bubbles;
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(corners); ++i) {
+    foam::CounterRandom random(5, i, 9);
+    const Vector3d off = kOff * kRadius * (2 * randomVector(random).array() - 1);
+    bubbles.add({.position = half * place[i] + off, .radius = kRadius, .type = foam::BubbleClass::air});
+  }
+  foam::FoamSolver solver(dryFoam());
+  const foam::StillPool space = emptySpace();
+  for (int step = 0; step * kStep < kTime; ++step) solver.step(bubbles, space, kStep);
+  foam::FoamTopology cells;
+  foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, cells);
+  double opened = 0;
+  for (const foam::Film& film : cells.films)
+    if (film.j == film.i + 1 && film.i % 2 == 0) opened = std::max(opened, film.area / (kRadius * kRadius));
+  return opened;
+}
+
+/// G4: corners where more than four cells meet are not stable.
+std::vector<ResultRow> corners(const StudyContext&) {
+  constexpr double kOpen = 0.1;  // of r^2; the films about it have areas of 1 to 2
+  const auto row = [](const char* of) {
+    return ResultRow{.resolution = of,
+                     .quantity = "film that opens within 20 s where more than four cells met",
+                     .reference = "a corner of four cells at each end",
+                     .source = "Plateau"};
+  };
+  ResultRow pyramid = row("square pyramid, 5 bubbles"), octahedron = row("octahedron, 6 bubbles");
+  octahedron.note =
+      "stays whole, also when started 0.3 r off; a stretched contact pulls with the share of its film, and "
+      "here it has none";
+  return {aimAtLeast(pyramid, openedFilm(5), kOpen, "r^2"),
+          aimAtLeast(octahedron, openedFilm(6), kOpen, "r^2")};
 }
 
 /// Sites repeated to all sides of the box [0, period)^3, those of the box itself first.
@@ -190,6 +242,7 @@ std::vector<ResultRow> weairePhelan(const StudyContext&) {
 std::vector<Study> clusterStudies() {
   return {{"G1", "clusters of equal bubbles", 2, equalClusters},
           {"G2", "an unequal pair", 1, unequalPair},
+          {"G4", "corners of more than four cells", 2, corners},
           {"G5", "Kelvin's foam", 1, kelvin},
           {"G6", "Weaire and Phelan's foam", 1, weairePhelan}};
 }

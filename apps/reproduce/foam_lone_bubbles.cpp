@@ -4,7 +4,6 @@
 
 #include "apps/reproduce/foam_bench.h"
 #include "apps/reproduce/foam_studies.h"
-#include "foam/forces/weak_attraction.h"
 #include "foam/lifetime.h"
 #include "foam/volume_correction.h"
 
@@ -146,22 +145,37 @@ std::vector<ResultRow> volumeRate(const StudyContext&) {
   return rows;
 }
 
-/// W1: the capillary pair force beside the Bessel function of the library.
-std::vector<ResultRow> pairForce(const StudyContext&) {
-  foam::FoamParams params = waterAt20(foam::Preset::physical);
-  params.attractionLaw = foam::AttractionLaw::capillary;
-  const double length = foam::capillaryLength(params), r = 1e-3, gas = 4 * pi / 3 * r * r * r;
-  const double load = params.density * 9.81 * gas;
-  double worst = 0;
-  for (const double x : {0.5, 1.0, 2.0, 4.0}) {
-    const double exact = load * load * std::cyl_bessel_k(1.0, x) / (2 * pi * params.surfaceTension * length);
-    worst = std::max(worst, std::abs(foam::weakAttraction(params, gas, r, gas, r, x * length) / exact - 1));
+/// K5: bubbles that arrive at a steady rate and burst.
+std::vector<ResultRow> steadyHead(const StudyContext&) {
+  constexpr std::size_t kArrivals = 20;                    // a step
+  constexpr double kStep = 0.02, kWarmUp = 6, kTime = 66;  // [s]; the longest lives of Rayleigh's law are 4
+  foam::FoamParams params;
+  params.burstMedianLife = 1;
+  const double mean = std::sqrt(pi / (4 * std::numbers::ln2));  // of lives with the median 1 s
+  foam::BubbleStore bubbles;
+  double count = 0, steps = 0;
+  for (double t = 0; t < kTime; t += kStep) {
+    for (std::size_t k = 0; k < kArrivals; ++k)
+      bubbles.add({.radius = params.burstReferenceRadius, .type = foam::BubbleClass::air});
+    foam::FoamTopology topology;
+    topology.freeArea.assign(bubbles.size(), 1), topology.hidden.assign(bubbles.size(), 0);
+    topology.volume = bubbles.gas;
+    const std::vector<std::uint8_t> supported(bubbles.size(), 1);
+    const Eigen::VectorXd psi = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(bubbles.size()));
+    std::vector<std::uint8_t> gone(bubbles.size(), 0);
+    for (const foam::EndedLife& life : foam::endLives(params, topology, supported, psi, kStep, bubbles))
+      gone[life.index] = 1;
+    // Half of those that ended in the step were there at its middle.
+    const auto ended = static_cast<double>(std::count(gone.begin(), gone.end(), 1));
+    if (t >= kWarmUp) count += static_cast<double>(bubbles.size()) - ended / 2, ++steps;
+    bubbles.remove(gone);
   }
-  ResultRow row{.resolution = "d/Lc 0.5, 1, 2, 4",
-                .quantity = "pair force off f f K1(d/Lc)/(2 pi sigma Lc)",
-                .reference = "Vella and Mahadevan 2005",
-                .source = "exact"};
-  return {aimAtMost(row, worst, 1e-6, "-")};
+  const double expected = static_cast<double>(kArrivals) / kStep * mean;
+  ResultRow row{.resolution = "1000 arrivals a second, 60 s, dt 20 ms",
+                .quantity = "bubbles in the head off arrival rate x mean life",
+                .reference = "1064.5",
+                .source = "Little 1961"};
+  return {aimAtMost(row, 100 * (count / steps / expected - 1), 3, "%")};
 }
 
 }  // namespace
@@ -169,8 +183,8 @@ std::vector<ResultRow> pairForce(const StudyContext&) {
 std::vector<Study> loneBubbleStudies() {
   return {{"B1", "terminal speed", 5, terminalSpeeds},
           {"T1", "lifetimes", 20, lifetimes},
-          {"T3", "volume correction as a rate", 1, volumeRate},
-          {"W1", "capillary attraction", 1, pairForce}};
+          {"K5", "a head of steady height", 5, steadyHead},
+          {"T3", "volume correction as a rate", 1, volumeRate}};
 }
 
 }  // namespace spume::apps

@@ -4,7 +4,8 @@ namespace spume::apps {
 
 Reproduction foamReproduction() {
   Reproduction table{"foam", "The foam beside published and exact figures", {}};
-  for (const std::vector<Study>& studies : {loneBubbleStudies(), clusterStudies(), crowdStudies()})
+  for (const std::vector<Study>& studies : {loneBubbleStudies(), attractionStudies(), clusterStudies(),
+                                            packingStudies(), crowdStudies(), restStudies()})
     table.studies.insert(table.studies.end(), studies.begin(), studies.end());
   return table;
 }

@@ -7,8 +7,11 @@
 namespace spume::apps {
 
 // The studies of the foam's table, by what they exercise.
-std::vector<Study> loneBubbleStudies();  ///< one bubble at a time: rise, bursting, volume, a wall
+std::vector<Study> loneBubbleStudies();  ///< one bubble at a time: rise, bursting, volume
+std::vector<Study> attractionStudies();  ///< pulls between floating bubbles and of walls
 std::vector<Study> clusterStudies();     ///< clusters of few bubbles and ordered foams
-std::vector<Study> crowdStudies();       ///< many bubbles: momentum, rest, volumes under pressure
+std::vector<Study> crowdStudies();       ///< many bubbles: momentum, volumes under pressure
+std::vector<Study> packingStudies();     ///< foams and packings of many cells: faces, contacts, order
+std::vector<Study> restStudies();        ///< arrival at the surface, rafts and piles at rest
 
 }  // namespace spume::apps

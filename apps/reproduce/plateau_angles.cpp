@@ -101,6 +101,15 @@ class Collector {
     }
   }
 
+  int bordersOf(const foam::Film& film) const {
+    const std::vector<Cut> cuts = cutsOf(film);
+    const double disc2 = radius_[film.i] * radius_[film.i] - film.height * film.height;
+    return static_cast<int>(std::count_if(cuts.begin(), cuts.end(), [&](const Cut& cut) {
+      const Stretch stretch = stretchOf(cuts, cut, disc2);
+      return cut.a.squaredNorm() > 0 && stretch.to > stretch.from;
+    }));
+  }
+
   PlateauAngles angles;
 
  private:
@@ -156,6 +165,15 @@ PlateauAngles plateauAngles(const std::vector<Vector3d>& position, const std::ve
   Collector collector(position, radius, topology, wanted);
   for (const foam::Film& film : topology.films) collector.add(film);
   return std::move(collector.angles);
+}
+
+std::vector<int> bordersOfFilms(const std::vector<Vector3d>& position, const std::vector<double>& radius,
+                                const foam::FoamTopology& topology) {
+  const std::vector<std::uint8_t> all(position.size(), 1);
+  const Collector collector(position, radius, topology, all);
+  std::vector<int> borders;
+  for (const foam::Film& film : topology.films) borders.push_back(collector.bordersOf(film));
+  return borders;
 }
 
 }  // namespace spume::apps

@@ -23,4 +23,9 @@ struct PlateauAngles {
 PlateauAngles plateauAngles(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
                             const foam::FoamTopology& topology, const std::vector<std::uint8_t>& wanted);
 
+/// Number of borders around every film of the topology; what is left of the film's rim, the free part of its
+/// disc, is none. O(films x neighbours^2).
+std::vector<int> bordersOfFilms(const std::vector<Eigen::Vector3d>& position,
+                                const std::vector<double>& radius, const foam::FoamTopology& topology);
+
 }  // namespace spume::apps

@@ -86,6 +86,14 @@ ResultRow& aimAtLeast(ResultRow& row, double figure, double limit, const std::st
   return row;
 }
 
+ResultRow& aimWithin(ResultRow& row, double figure, double low, double high, const std::string& unit) {
+  row.figure = figure;
+  row.unit = unit;
+  row.aim = withUnit(shortText(low) + " to " + shortText(high), unit);
+  row.verdict = figure >= low && figure <= high ? Verdict::met : Verdict::missed;  // NaN misses
+  return row;
+}
+
 ResultRow& reportOnly(ResultRow& row, double figure, const std::string& unit) {
   row.figure = figure;
   row.unit = unit;

@@ -32,6 +32,9 @@ ResultRow& aimAtMost(ResultRow& row, double figure, double limit, const std::str
 /// The same where the figure is to be at least `limit`.
 ResultRow& aimAtLeast(ResultRow& row, double figure, double limit, const std::string& unit);
 
+/// The same where the figure is to lie between two limits.
+ResultRow& aimWithin(ResultRow& row, double figure, double low, double high, const std::string& unit);
+
 /// Sets figure and unit of a row that aims at nothing.
 ResultRow& reportOnly(ResultRow& row, double figure, const std::string& unit);
 

@@ -77,5 +77,30 @@ TEST(PlateauAngles, OfThreeBubblesInARingAreOneBorder) {
   EXPECT_TRUE(angles.borders.empty());
 }
 
+TEST(PlateauAngles, EveryWholeCellHasTheEdgesOfEulersLaw) {
+  // Three edges meet in every corner of a cell with F faces, so it has 3 F - 6 edges, each of two faces.
+  Froth froth;
+  for (int n = 0; n < 400; ++n) {
+    foam::CounterRandom random(9, static_cast<std::uint64_t>(n), 1);
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    froth.add({x, y, z}, 0.3, true);
+  }
+  std::vector<std::uint64_t> id(froth.position.size());
+  for (std::size_t n = 0; n < id.size(); ++n) id[n] = n;
+  foam::FoamTopology cells;
+  foam::PowerCells().compute(froth.position, froth.radius, id, cells);
+  const std::vector<int> borders = bordersOfFilms(froth.position, froth.radius, cells);
+  std::vector<int> faces(id.size(), 0), edges(id.size(), 0);
+  for (std::size_t f = 0; f < borders.size(); ++f)
+    for (const std::int32_t i : {cells.films[f].i, cells.films[f].j}) ++faces[i], edges[i] += borders[f];
+  int whole = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (cells.freeArea[i] > 0) continue;
+    ++whole;
+    EXPECT_EQ(edges[i], 6 * faces[i] - 12) << i;
+  }
+  EXPECT_GT(whole, 50);
+}
+
 }  // namespace
 }  // namespace spume::apps

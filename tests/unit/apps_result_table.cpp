@@ -42,6 +42,15 @@ TEST(ResultTable, AFigureThatIsNoNumberMissesItsAim) {
   EXPECT_EQ(someRow("A", std::nan("")).verdict, Verdict::missed);
 }
 
+TEST(ResultTable, ABandIsMetInsideAndMissedOutside) {
+  ResultRow row;
+  EXPECT_EQ(aimWithin(row, 13.7, 13.4, 14.1, "-").verdict, Verdict::met);
+  EXPECT_EQ(row.aim, "13.4 to 14.1 -");
+  EXPECT_EQ(aimWithin(row, 13.3, 13.4, 14.1, "-").verdict, Verdict::missed);
+  EXPECT_EQ(aimWithin(row, 14.2, 13.4, 14.1, "-").verdict, Verdict::missed);
+  EXPECT_EQ(aimWithin(row, std::nan(""), 13.4, 14.1, "-").verdict, Verdict::missed);
+}
+
 TEST(ResultTable, RefusesAnotherFileWithItsPlace) {
   ResultTable table("title");
   EXPECT_THROW(table.readCsv("a,b\n1,2\n", "x.csv"), coupling::SceneError);

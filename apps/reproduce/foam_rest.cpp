@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+
+#include "apps/reproduce/foam_bench.h"
+#include "apps/reproduce/foam_studies.h"
+
+namespace spume::apps {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr foam::Preset kPresets[] = {foam::Preset::paper, foam::Preset::physical};
+std::string nameOf(foam::Preset preset) { return preset == foam::Preset::paper ? "paper" : "physical"; }
+
+/// Bubbles let rise in a square box.
+struct Crowd {
+  int count;
+  double smallest, largest;  ///< radii [m]
+  double edge, depth;        ///< of the box [m]
+  bool apart;                ///< none touches another at the start
+};
+
+/// A crowd in still liquid, and what it does after 8 s.
+struct Settling {
+  foam::BubbleStore bubbles;
+  foam::FoamStepReport report;
+
+  Settling(foam::FoamParams params, const Crowd& crowd, double dt) {
+    constexpr double kTime = 8;
+    const double edge = crowd.edge;
+    params.bursting = false;
+    foam::StillPoolParams box;
+    box.lower = {-edge / 2, -crowd.depth, -edge / 2}, box.upper = {edge / 2, edge, edge / 2};
+    box.closed = {true, true, true, false, true, true};
+    for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(crowd.count); ++i) {
+      foam::CounterRandom random(5, i, 2);
+      const double r = crowd.smallest + (crowd.largest - crowd.smallest) * random.uniform();
+      Vector3d place = drawPlace(crowd, r, random);
+      while (crowd.apart && touchesAny(place, r)) place = drawPlace(crowd, r, random);
+      bubbles.add({.position = place, .radius = r});
+    }
+    const foam::StillPool pool(box);
+    foam::FoamSolver solver(params);
+    for (double t = 0; t < kTime; t += dt) report = solver.step(bubbles, pool, dt);
+  }
+
+ private:
+  static Vector3d drawPlace(const Crowd& crowd, double radius, foam::CounterRandom& random) {
+    const Vector3d share = randomVector(random);
+    const double room = crowd.edge - 2 * radius;
+    return {(share.x() - 0.5) * room, -crowd.depth * (0.05 + 0.85 * share.y()), (share.z() - 0.5) * room};
+  }
+  bool touchesAny(const Vector3d& place, double radius) const {
+    for (std::size_t k = 0; k < bubbles.size(); ++k)
+      if ((bubbles.position[k] - place).norm() < bubbles.radius[k] + radius) return true;
+    return false;
+  }
+};
+
+constexpr Crowd kRaft{300, 0.375e-3, 1.25e-3, 30e-3, 30e-3, false};
+constexpr Crowd kPile{300, 1.25e-3, 5e-3, 50e-3, 50e-3, false};
+constexpr Crowd kLargeRaft{1000, 0.375e-3, 1.25e-3, 45e-3, 90e-3, true};
+constexpr Crowd kLargePile{1000, 1.25e-3, 5e-3, 75e-3, 300e-3, true};
+constexpr double kSmallRest = 1e-4, kLargeRest = 1e-3;  ///< of rafts and of piles [m/s]
+constexpr double kRestSteps[] = {0.005, 0.02};          ///< [s]
+
+std::string nameOf(const Crowd& crowd, double dt) {
+  const std::string radii = crowd.smallest < 1e-3 ? "0.375-1.25" : "1.25-5";
+  return std::to_string(crowd.count) + " of r " + radii + " mm, dt " + stepName(dt);
+}
+
+ResultRow restRow(const Settling& settled, const Crowd& crowd, double dt, const std::string& of) {
+  ResultRow row{.resolution = nameOf(crowd, dt), .quantity = of + ": rms speed after 8 s"};
+  return aimAtMost(row, rmsSpeed(settled.bubbles), crowd.smallest < 1e-3 ? kSmallRest : kLargeRest, "m/s");
+}
+
+/// The preset with the attraction that belongs to it.
+foam::FoamParams withAttraction(foam::Preset preset) {
+  foam::FoamParams params = foam::makePreset(preset);
+  params.attractionLaw =
+      preset == foam::Preset::paper ? foam::AttractionLaw::coefficient : foam::AttractionLaw::capillary;
+  return params;
+}
+
+/// S22 and the aims of rest: rafts, with and without attraction, and piles.
+std::vector<ResultRow> rest(const StudyContext&) {
+  std::vector<ResultRow> rows;
+  for (const foam::Preset preset : kPresets) {
+    const std::string name = nameOf(preset);
+    for (const double dt : kRestSteps)
+      rows.push_back(restRow(Settling(foam::makePreset(preset), kRaft, dt), kRaft, dt, name));
+    for (const double dt : kRestSteps)
+      rows.push_back(
+          restRow(Settling(withAttraction(preset), kRaft, dt), kRaft, dt, name + " with attraction"));
+    for (const double dt : kRestSteps)
+      rows.push_back(restRow(Settling(foam::makePreset(preset), kPile, dt), kPile, dt, name + ", pile"));
+  }
+  return rows;
+}
+
+/// Height of the centre of the gas above the water [m].
+double gasHeight(const foam::BubbleStore& bubbles) {
+  double gas = 0, moment = 0;
+  for (std::size_t i = 0; i < bubbles.size(); ++i)
+    gas += bubbles.gas[i], moment += bubbles.gas[i] * bubbles.position[i].y();
+  return moment / gas;
+}
+
+/// A thousand of them, and what else S22 asks of a pile: its height at both steps, and its volumes.
+std::vector<ResultRow> thousand(const StudyContext&) {
+  constexpr double kSameHeight = 5, kVolume = 1;  // [%]
+  std::vector<ResultRow> rows;
+  for (const foam::Preset preset : kPresets) {
+    const std::string name = nameOf(preset);
+    for (const double dt : kRestSteps)
+      rows.push_back(restRow(Settling(foam::makePreset(preset), kLargeRaft, dt), kLargeRaft, dt, name));
+    std::vector<double> height;
+    for (const double dt : kRestSteps) {
+      const Settling pile(foam::makePreset(preset), kLargePile, dt);
+      rows.push_back(restRow(pile, kLargePile, dt, name + ", pile"));
+      ResultRow volume{.resolution = nameOf(kLargePile, dt), .quantity = name + ", pile: worst volume error"};
+      rows.push_back(aimAtMost(volume, 100 * pile.report.volumeErrorMax, kVolume, "%"));
+      height.push_back(gasHeight(pile.bubbles));
+    }
+    ResultRow same{.resolution = "1000 of r 1.25-5 mm",
+                   .quantity = name + ", pile: height at dt 20 against 5 ms"};
+    rows.push_back(aimAtMost(same, 100 * (height[1] / height[0] - 1), kSameHeight, "%"));
+  }
+  return rows;
+}
+
+/// Lone bubbles of r 0.1 to 10 mm, far apart, rising into the surface.
+struct Arrivals {
+  double highest = -1;     ///< above the surface, of any centre at any time, in its radii
+  std::size_t astray = 0;  ///< that did not end at the surface, or changed their class more than once
+
+  Arrivals(foam::Preset preset, double dt) {
+    constexpr int kRows = 32, kCount = 1000;
+    constexpr double kApart = 0.1, kTime = 2;  // [m], [s]
+    foam::FoamParams params = waterAt20(preset);
+    foam::BubbleStore bubbles;
+    for (int i = 0; i < kCount; ++i) {
+      foam::CounterRandom random(17, static_cast<std::uint64_t>(i), 4);
+      const double r = 1e-4 * std::pow(100, random.uniform()), depth = (2 + 8 * random.uniform()) * r;
+      bubbles.add({.position = {kApart * (i % kRows), -depth, kApart * (i / kRows)}, .radius = r});
+    }
+    foam::StillPoolParams pool;
+    pool.gravity = params.gravity, pool.density = params.density;
+    const foam::StillPool water(pool);
+    foam::FoamSolver solver(params);
+    std::vector<int> changes(kCount, 0);
+    for (int step = 0; step * dt < kTime; ++step) {
+      for (const foam::FoamEvent& event : solver.step(bubbles, water, dt).events) ++changes[event.id];
+      for (int i = 0; i < kCount; ++i)
+        highest = std::max(highest, bubbles.position[i].y() / bubbles.radius[i]);
+    }
+    for (int i = 0; i < kCount; ++i)
+      astray += bubbles.type[i] != foam::BubbleClass::surface || changes[i] != 1;
+  }
+};
+
+/// B7: no bubble is thrown out of the liquid it rises through.
+std::vector<ResultRow> arrivals(const StudyContext&) {
+  std::vector<ResultRow> rows;
+  for (const foam::Preset preset : kPresets)
+    for (const double dt : {0.001, 0.005, 0.01, 0.02}) {
+      const Arrivals all(preset, dt);
+      ResultRow height{.resolution = "1000 of r 0.1-10 mm, dt " + stepName(dt),
+                       .quantity = nameOf(preset) + ": highest centre above the surface",
+                       .reference = "not above phi = r",
+                       .source = "model, 2"};
+      ResultRow astray{.resolution = height.resolution,
+                       .quantity = nameOf(preset) + ": not captured, or captured more than once",
+                       .reference = "0",
+                       .source = "model, 2"};
+      rows.push_back(aimAtMost(height, all.highest, 1, "r"));
+      rows.push_back(aimAtMost(astray, static_cast<double>(all.astray), 0, "bubbles"));
+    }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Study> restStudies() {
+  return {{"B7", "capture by the surface", 20, arrivals},
+          {"S22", "rafts and piles at rest", 200, rest},
+          {"Rest", "a thousand bubbles at rest", 300, thousand}};
+}
+
+}  // namespace spume::apps

@@ -1,0 +1,163 @@
+#include "apps/reproduce/soft_packing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "foam/counter_random.h"
+#include "foam/forces/strong_spring.h"
+
+namespace spume::apps {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStiffness = 1;
+/// How far balls may go before their images are placed anew.
+constexpr double kRoam = 0.3;
+
+/// FIRE [Bitzek 2006, Table 1]; time in sqrt(mass / stiffness). A ball is held by about ten springs, so the
+/// fastest mode turns in 1/4: the longest step is half of where it would grow.
+constexpr double kFirstStep = 0.05, kLongestStep = 0.3, kGrow = 1.1, kShrink = 0.5, kMix = 0.1,
+                 kMixShrink = 0.99;
+constexpr int kPatience = 5, kMaxSteps = 100000;
+constexpr double kAtRest = 1e-5;   ///< largest net force over the mean push of the contacts
+/// Mean push below which balls do not touch: a fraction of 1e-6 from where they begin to.
+constexpr double kNothing = 1e-6;
+
+}  // namespace
+
+SoftPacking::SoftPacking(const SoftPackingParams& params) : params_(params) {
+  for (int i = 0; i < params.count; ++i) {
+    foam::CounterRandom random(params.seed, static_cast<std::uint64_t>(i), 6);
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    position_.emplace_back(x, y, params.dimensions == 3 ? z : 0);
+    radius_.push_back(i % 2 ? params.ratio : 1);
+    ballVolume_ += params.dimensions == 3 ? 4 * std::numbers::pi / 3 * std::pow(radius_[i], 3)
+                                          : std::numbers::pi * std::pow(radius_[i], 2);
+  }
+  setFraction(params.fraction);
+}
+
+double SoftPacking::fraction() const { return ballVolume_ / std::pow(edge_, params_.dimensions); }
+
+void SoftPacking::setFraction(double fraction) {
+  const double edge = std::pow(ballVolume_ / fraction, 1.0 / params_.dimensions);
+  for (Vector3d& x : position_) x *= edge / edge_;
+  edge_ = edge;
+  imaged_.clear();
+  findForces();
+}
+
+void SoftPacking::addImagesAlong(int axis) {
+  const double margin = 2 * params_.ratio + 2 * kRoam;
+  const std::size_t soFar = placed_.size();
+  for (std::size_t k = 0; k < soFar; ++k)
+    for (const double side : {-edge_, edge_}) {
+      const double x = placed_[k][axis] + side;
+      if (x < -margin || x > edge_ + margin) continue;
+      placed_.push_back(placed_[k] + side * Vector3d::Unit(axis));
+      shift_.push_back(shift_[k] + side * Vector3d::Unit(axis));
+      radius_.push_back(radius_[k]), ball_.push_back(ball_[k]);
+    }
+}
+
+void SoftPacking::placeImages() {
+  const std::size_t balls = position_.size();
+  for (Vector3d& x : position_)
+    for (int axis = 0; axis < params_.dimensions; ++axis) x[axis] -= edge_ * std::floor(x[axis] / edge_);
+  imaged_ = placed_ = position_;
+  shift_.assign(balls, Vector3d::Zero());
+  radius_.resize(balls), ball_.resize(balls);
+  for (std::size_t i = 0; i < balls; ++i) ball_[i] = static_cast<std::int32_t>(i);
+  for (int axis = 0; axis < params_.dimensions; ++axis) addImagesAlong(axis);
+}
+
+bool SoftPacking::imagesSuffice() const {
+  if (imaged_.size() != position_.size()) return false;
+  for (std::size_t i = 0; i < imaged_.size(); ++i)
+    if ((position_[i] - imaged_[i]).squaredNorm() > kRoam * kRoam) return false;
+  return true;
+}
+
+void SoftPacking::findForces() {
+  if (imagesSuffice())
+    for (std::size_t k = 0; k < placed_.size(); ++k) placed_[k] = position_[ball_[k]] + shift_[k];
+  else
+    placeImages();
+  near_.update(placed_, radius_);
+  contacts_.clear();
+  force_.assign(position_.size(), Vector3d::Zero());
+  const auto balls = static_cast<std::int32_t>(position_.size());
+  for (std::int32_t i = 0; i < balls; ++i) {
+    const std::int32_t rank = near_.rank()[i];
+    for (std::int32_t slot = near_.rowStart()[rank]; slot < near_.rowStart()[rank + 1]; ++slot) {
+      const std::int32_t j = near_.order()[near_.candidate()[slot]];
+      const Vector3d apart = placed_[i] - placed_[j];
+      const double distance = apart.norm();
+      if (distance == 0 || distance >= radius_[i] + radius_[j]) continue;
+      const foam::PairSpring spring = foam::strongSpring(kStiffness, radius_[i], radius_[j], 1, distance, 0);
+      force_[i] -= spring.tension / distance * apart;
+      if (i < ball_[j]) contacts_.push_back({i, ball_[j], -spring.tension, distance});
+    }
+  }
+}
+
+double SoftPacking::largestForce() const {
+  double largest = 0;
+  for (const Vector3d& f : force_) largest = std::max(largest, f.norm());
+  return largest;
+}
+
+bool SoftPacking::relax() {
+  velocity_.assign(position_.size(), Vector3d::Zero());
+  double dt = kFirstStep, mix = kMix;
+  int downhill = 0;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    double push = 0;
+    for (const Contact& c : contacts_) push += c.push / static_cast<double>(contacts_.size());
+    if (push < kNothing || largestForce() < kAtRest * push) return true;
+    double power = 0, speed = 0, force = 0;
+    for (std::size_t i = 0; i < position_.size(); ++i) {
+      power += force_[i].dot(velocity_[i]);
+      speed += velocity_[i].squaredNorm(), force += force_[i].squaredNorm();
+    }
+    const double along = mix * std::sqrt(speed / force);
+    if (power > 0 && ++downhill > kPatience) dt = std::min(kGrow * dt, kLongestStep), mix *= kMixShrink;
+    if (power < 0) downhill = 0, dt *= kShrink, mix = kMix;
+    for (std::size_t i = 0; i < position_.size(); ++i) {
+      velocity_[i] = power < 0 ? Vector3d::Zero() : Vector3d((1 - mix) * velocity_[i] + along * force_[i]);
+      velocity_[i] += dt * force_[i];
+      position_[i] += dt * velocity_[i];
+    }
+    findForces();
+  }
+  return false;
+}
+
+SoftPacking::Census SoftPacking::census() const {
+  std::vector<int> touched(position_.size(), 0);
+  std::vector<std::uint8_t> rattles(position_.size(), 0);
+  Census census;
+  for (const Contact& c : contacts_)
+    census.pressure += c.push * c.distance / (params_.dimensions * std::pow(edge_, params_.dimensions));
+  std::size_t left = position_.size() + 1, held = position_.size();
+  std::size_t between = 0;
+  while (held < left) {
+    left = held;
+    std::fill(touched.begin(), touched.end(), 0);
+    between = 0;
+    for (const Contact& c : contacts_)
+      if (!rattles[c.i] && !rattles[c.j]) ++touched[c.i], ++touched[c.j], ++between;
+    held = 0;
+    for (std::size_t i = 0; i < position_.size(); ++i) {
+      rattles[i] = touched[i] <= params_.dimensions;
+      held += !rattles[i];
+    }
+  }
+  census.held = static_cast<double>(held) / static_cast<double>(position_.size());
+  census.contacts = held ? 2 * static_cast<double>(between) / static_cast<double>(held) : 0;
+  return census;
+}
+
+}  // namespace spume::apps
