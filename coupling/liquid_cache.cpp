@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "coupling/vdb_file.h"
+#include "fluid/level_set.h"
 #include "fluid/parallel.h"
+#include "fluid/reinitialize.h"
 #include "fluid/vdb_grids.h"
 
 namespace spume::coupling {
@@ -22,16 +24,23 @@ fluid::DenseField<float> boxDistance(const fluid::GridSpec& grid) {
 /// The liquid closed half a cell inside solids, as the grid closes it at the walls of the domain. phi is
 /// continued into solids from both sides: in a thin wall it would jump from deep liquid to far air without a
 /// voxel of the band in between, which no level set may. The half cell keeps a drawn liquid in touch with its
-/// glass.
+/// glass. The larger of two distances is none round the edges where surface and glass meet: near solids it is
+/// made one again.
 fluid::DenseField<float> closedInSolids(const fluid::LiquidState& liquid,
                                         const fluid::DenseField<float>& psi) {
   if (psi.size() != liquid.grid.cells) return liquid.phi;  // without solids
   const float reach = static_cast<float>(0.5 * liquid.grid.dx);
-  fluid::DenseField<float> phi(liquid.grid.cells);
+  fluid::DenseField<float> closed(liquid.grid.cells);
   fluid::forEachCell(liquid.grid.cells, [&](int i, int j, int k) {
-    phi(i, j, k) = std::max(liquid.phi(i, j, k), -psi(i, j, k) - reach);
+    closed(i, j, k) = std::max(liquid.phi(i, j, k), -psi(i, j, k) - reach);
   });
-  return phi;
+  fluid::fillGhostLayers(closed);
+  fluid::Reinitializer(liquid.grid).apply(closed);
+  const float far = static_cast<float>((fluid::kSurfaceBand + 1) * liquid.grid.dx);
+  fluid::forEachCell(liquid.grid.cells, [&](int i, int j, int k) {
+    if (psi(i, j, k) > far) closed(i, j, k) = liquid.phi(i, j, k);
+  });
+  return closed;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "fluid/parallel.h"
 #include "fluid/paths.h"
 #include "fluid/sampling.h"
+#include "fluid/upwind_gradient.h"
 
 namespace spume::fluid {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kWenoCfl = 0.5;
 /// Values farther from the surface than this are interpolated linearly [cells]: only those near it decide
 /// where it is, the others are made distances again from them.
 constexpr float kAccurateReach = 3;
-/// Regulariser of the WENO smoothness measures, relative to the slope squared [Jiang, Peng 2000].
-constexpr float kWenoEpsilon = 1e-6f;
 
 /// Value of phi at a point in index units: cubic, limited to the eight values around it, or limited quadratic
 /// at kinks.
@@ -40,25 +39,12 @@ float sampleSurface(const FieldView& f, const DenseField<float>& phi, const Dens
   return std::clamp(cubicValue(p, si, sj, b.fx, b.fy, b.fz).value, low, high);
 }
 
-/// Fifth-order WENO value of a derivative from five consecutive differences, upwind first [Jiang, Peng 2000].
-float wenoDerivative(float a, float b, float c, float d, float e) {
-  const auto square = [](float v) { return v * v; };
-  const float s0 = 13.0f / 12 * square(a - 2 * b + c) + 0.25f * square(a - 4 * b + 3 * c);
-  const float s1 = 13.0f / 12 * square(b - 2 * c + d) + 0.25f * square(b - d);
-  const float s2 = 13.0f / 12 * square(c - 2 * d + e) + 0.25f * square(3 * c - 4 * d + e);
-  const float w0 = 0.1f / square(kWenoEpsilon + s0);
-  const float w1 = 0.6f / square(kWenoEpsilon + s1);
-  const float w2 = 0.3f / square(kWenoEpsilon + s2);
-  return (w0 * (2 * a - 7 * b + 11 * c) + w1 * (-b + 5 * c + 2 * d) + w2 * (2 * c + 5 * d - e)) /
-         (6 * (w0 + w1 + w2));
-}
-
 /// Upwind derivative of p along stride s for a wind of speed u; p in units of the cell edge.
 float upwindDerivative(const float* p, std::ptrdiff_t s, float u, float perDx) {
   const std::ptrdiff_t t = u > 0 ? s : -s;  // towards the wind's lee; the stencil leans the other way
   const float d0 = p[-2 * t] - p[-3 * t], d1 = p[-t] - p[-2 * t], d2 = p[0] - p[-t], d3 = p[t] - p[0],
               d4 = p[2 * t] - p[t];
-  const float value = wenoDerivative(d0 * perDx, d1 * perDx, d2 * perDx, d3 * perDx, d4 * perDx);
+  const float value = wenoSlope(d0 * perDx, d1 * perDx, d2 * perDx, d3 * perDx, d4 * perDx);
   return u > 0 ? value : -value;
 }
 

@@ -21,6 +21,7 @@ using openvdb::CoordBBox;
 
 constexpr char kCellsKey[] = "spume_cells";
 constexpr char kOriginKey[] = "spume_origin";
+constexpr int kSurfaceMargin = kSurfaceBand + 1;  // voxels beyond the box that its closed surface needs
 
 Coord toCoord(const Eigen::Vector3i& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3i toCell(const Coord& c) { return {c.x(), c.y(), c.z()}; }
@@ -100,6 +101,20 @@ bool isAtEdge(const Eigen::Vector3i& size, const Eigen::Vector3i& cell) {
   return (cell.array() == 0 || cell.array() == last).count() >= 2;
 }
 
+/// phi closed at the border of the grid's box, clamped to the band and repaired, on the grid's cells and
+/// kSurfaceMargin more on each side.
+DenseField<float> closedSurface(const GridSpec& grid, const DenseField<float>& phi, float band) {
+  const Eigen::Vector3i margin = Eigen::Vector3i::Constant(kSurfaceMargin);
+  DenseField<float> closed(grid.cells + 2 * margin, band);
+  forEachCell(closed.size(), [&](int i, int j, int k) {
+    const Eigen::Vector3i cell = Eigen::Vector3i(i, j, k) - margin;
+    const float border = static_cast<float>(borderDistance(grid, cell) * grid.dx);
+    closed(i, j, k) = std::clamp(std::max(phi(clampedTo(grid.cells, cell)), border), -band, band);
+  });
+  repairLevelSet(closed, grid.dx, band);
+  return closed;
+}
+
 Eigen::Vector3f centreVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell) {
   Eigen::Vector3f value;
   for (int axis = 0; axis < 3; ++axis)
@@ -131,19 +146,16 @@ DenseField<float> readField(const openvdb::FloatGrid& grid) {
 
 openvdb::FloatGrid::Ptr surfaceGrid(const GridSpec& grid, const DenseField<float>& phi) {
   const float band = bandOf(grid);
-  const int margin = kSurfaceBand + 1;
-  const CoordBBox region(toCoord(Eigen::Vector3i::Constant(-margin)),
-                         toCoord(grid.cells + Eigen::Vector3i::Constant(margin - 1)));
+  const DenseField<float> closed = closedSurface(grid, phi, band);
+  const CoordBBox region(toCoord(Eigen::Vector3i::Constant(-kSurfaceMargin)),
+                         toCoord(grid.cells + Eigen::Vector3i::Constant(kSurfaceMargin - 1)));
   const auto voxel = [&](const Coord& at, float& value) {
-    const Eigen::Vector3i cell = toCell(at);
-    const float border = static_cast<float>(borderDistance(grid, cell) * grid.dx);
-    value = std::clamp(std::max(phi(clampedTo(grid.cells, cell)), border), -band, band);
+    value = closed(toCell(at) + Eigen::Vector3i::Constant(kSurfaceMargin));
     return std::abs(value) < band;
   };
   const auto surface = buildGrid<openvdb::FloatGrid>(region, band, voxel);
   surface->setGridClass(openvdb::GRID_LEVEL_SET);
   describe(*surface, grid, "surface");
-  repairLevelSet(*surface);
   openvdb::tools::pruneLevelSet(surface->tree());
   return surface;
 }
