@@ -29,7 +29,7 @@ double largestOf(const Lanes& x) {
 
 void ConvexCell::reset(double half) {
   constexpr std::int32_t kCubeCorners = 8;
-  half_ = half;
+  half_ = half, lastFace_ = kCubeFaces - 1;
   count_ = kCubeCorners;
   makeRoom(count_);
   for (std::int32_t c = 0; c < kCubeCorners; ++c) {
@@ -73,6 +73,7 @@ ConvexCell::Cut ConvexCell::cut(const Eigen::Vector3d& normal, double offset, st
   findCrossings();
   if (!formRing()) return Cut::unsure;
   replaceCorners(face);
+  lastFace_ = std::max(lastFace_, face);
   pad();
   findBounds();
   return Cut::done;
@@ -105,15 +106,18 @@ void ConvexCell::findCrossings() {
 
 /// Orders the crossings to one ring around the new face; false if round-off has left anything else.
 bool ConvexCell::formRing() {
-  std::size_t links = 0;
-  for (Crossing& from : crossing_)
-    for (std::size_t to = 0; to < crossing_.size(); ++to)
-      if (crossing_[to].left == from.right) from.after = static_cast<std::int32_t>(to), ++links;
-  if (links != crossing_.size() || links < 3) return false;
-  std::size_t steps = 0;
-  for (std::int32_t at = 0; (steps == 0 || at != 0) && at >= 0 && steps <= links; ++steps)
-    at = crossing_[at].after;
-  return steps == links;
+  const auto crossings = static_cast<std::int32_t>(crossing_.size());
+  if (crossings < 3) return false;
+  if (crossingAt_.size() <= static_cast<std::size_t>(lastFace_)) crossingAt_.resize(2 * lastFace_ + 2, 0);
+  for (std::int32_t k = 0; k < crossings; ++k) crossingAt_[crossing_[k].left] = k;
+  for (Crossing& from : crossing_) {
+    const std::int32_t to = crossingAt_[from.right];  // from an earlier plane where this one has none
+    if (to >= crossings || crossing_[to].left != from.right) return false;
+    from.after = to;
+  }
+  std::int32_t steps = 0;
+  for (std::int32_t at = 0; (steps == 0 || at != 0) && steps <= crossings; ++steps) at = crossing_[at].after;
+  return steps == crossings;
 }
 
 /// Puts the new corners in the places of the lost ones.
@@ -163,13 +167,13 @@ void ConvexCell::findBounds() {
   farthest_ = std::sqrt(largestOf(far2));
 }
 
-void ConvexCell::listFaces(std::vector<std::int32_t>& faces) const {
-  faces.clear();
+void ConvexCell::listFaces(std::vector<std::int32_t>& faces) {
+  isLeft_.assign(static_cast<std::size_t>(lastFace_) + 1, 0);
   for (std::size_t k = 0; k < count_; ++k)
-    for (const std::int32_t face : corner_[k].face)
-      if (face >= kCubeFaces) faces.push_back(face);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    for (const std::int32_t face : corner_[k].face) isLeft_[face] = 1;
+  faces.clear();
+  for (std::int32_t face = kCubeFaces; face <= lastFace_; ++face)
+    if (isLeft_[face]) faces.push_back(face);
 }
 
 }  // namespace spume::foam

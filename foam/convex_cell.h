@@ -33,7 +33,7 @@ class ConvexCell {
   /// Distance from the centre to the farthest corner [m].
   double farthest() const { return farthest_; }
   /// Lists the numbers of all faces that are left but the cube's, each once, ascending.
-  void listFaces(std::vector<std::int32_t>& faces) const;
+  void listFaces(std::vector<std::int32_t>& faces);
 
  private:
   /// Edge e leads to corner next[e] and has face[e] on its left, face[e + 1] on its right. All corners turn
@@ -70,6 +70,9 @@ class ConvexCell {
   std::vector<double> beyond_;     ///< normal . p - offset of each corner [m^2]
   std::vector<std::int32_t> lost_;
   std::vector<Crossing> crossing_;
+  std::vector<std::int32_t> crossingAt_;    ///< the crossing with each face on its left, if it has one
+  std::int32_t lastFace_ = kCubeFaces - 1;  ///< largest number of a face it has had
+  std::vector<std::uint8_t> isLeft_;        ///< of each face, while they are listed
   Eigen::Vector3d low_, high_;
   double half_ = 0, farthest_ = 0;
 };

@@ -60,6 +60,11 @@ FilmShape DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const
   return out;
 }
 
+bool DiscClipper::leavesAny(const CuttingPlanes& planes, std::size_t face, double radius) {
+  const double height = planes.height[face], discRadius2 = (radius - height) * (radius + height);
+  return discRadius2 > 0 && findLines(planes, face, discRadius2) && clipLines(discRadius2);
+}
+
 /// Collects the lines that cut the disc; false if a plane cuts all of it away.
 bool DiscClipper::findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2) {
   const std::size_t padded = paddedToLanes(planes.count);

@@ -34,6 +34,10 @@ class DiscClipper {
   /// What the other planes leave of plane `face`'s disc. O(m^2) in the number m of planes that cut it.
   FilmShape clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls);
 
+  /// Whether the other planes leave anything of the disc of plane `face` in a ball of that radius [m]: clip()
+  /// without its integrals.
+  bool leavesAny(const CuttingPlanes& planes, std::size_t face, double radius);
+
   /// A point of the last disc clipped that was not empty, relative to the owner's centre [m]: the mean of its
   /// edges.
   Eigen::Vector3d pointInside() const;

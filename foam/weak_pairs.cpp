@@ -26,6 +26,10 @@ using Eigen::Vector3d;
 /// first.
 constexpr double kCellsPerRange = 6;
 
+/// Cells of the box around all sites, for each site, up to which they stand in a table: beyond, far outliers
+/// would make it mostly empty, and a hash finds them.
+constexpr double kCellsPerSite = 64;
+
 /// Nearness of a site at the bubble's own place: before all others.
 constexpr double kFirst = -1e300;
 
@@ -52,13 +56,22 @@ class SiteGrid {
       maxRadius_ = std::max(maxRadius_, radius[i]);
     }
     tbb::parallel_sort(keys.begin(), keys.end());
-    cells_ = CellHash(keys);
+    const double cells = width(0) * width(1) * width(2);
+    constexpr double kWrap = 1 << kCellAxisBits;  // beyond, cells may share a key and their sites mix
+    if (cells <= kCellsPerSite * static_cast<double>(position.size()) &&
+        std::max({width(0), width(1), width(2)}) < kWrap)
+      table_.resize(static_cast<std::size_t>(cells));
+    else
+      cells_ = CellHash(keys);
     for (const auto& [key, i] : keys) {
       if (sites_.empty() || cellOf(position[i]) != cellOf(sites_.back().position))
         runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
       sites_.push_back({position[i], {radius[i], id[i]}, i});
+      for (int axis = 0; axis < 3; ++axis) columns_[axis].push_back(position[i][axis]);
+      columns_[3].push_back(sites_.back().ball.radius);
     }
     runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
+    if (!table_.empty()) fillTable();
   }
 
   double cellSize() const { return cellSize_; }
@@ -67,7 +80,11 @@ class SiteGrid {
   /// First site of each cell that is not empty, then the number of sites.
   const std::vector<std::int32_t>& runStart() const { return runStart_; }
 
-  /// Calls visit(site) for all sites whose cell is `ring` cells from that of x, in the largest coordinate.
+  /// Coordinates and radii of the sites, in their order [m].
+  const std::array<std::vector<double>, 4>& columns() const { return columns_; }
+
+  /// Calls visit(begin, end) for runs of the sites whose cell is `ring` cells from that of x, in the largest
+  /// coordinate.
   template <typename Visit>
   void visitRing(const Vector3d& x, std::int64_t ring, const Visit& visit) const {
     const Cell centre = cellOf(x);
@@ -108,14 +125,33 @@ class SiteGrid {
   }
   template <typename Visit>
   void visitCell(const Cell& cell, const Visit& visit) const {
-    const CellHash::Run& run = cells_[keyOf(cell)];
-    for (std::int32_t s = run.begin; s < run.end; ++s) visit(sites_[s]);
+    if (cell[0] < low_[0] || cell[0] > high_[0]) return;
+    const Run run = table_.empty() ? runOf(cells_[keyOf(cell)]) : table_[placeOf(cell)];
+    if (run.begin < run.end) visit(run.begin, run.end);
+  }
+
+  struct Run {
+    std::int32_t begin = 0, end = 0;
+  };
+  static Run runOf(const CellHash::Run& run) { return {run.begin, run.end}; }
+  double width(int axis) const {
+    return static_cast<double>(high_[axis]) - static_cast<double>(low_[axis]) + 1;
+  }
+  std::size_t placeOf(const Cell& cell) const {
+    const std::int64_t row = (cell[2] - low_[2]) * (high_[1] - low_[1] + 1) + cell[1] - low_[1];
+    return static_cast<std::size_t>(row * (high_[0] - low_[0] + 1) + cell[0] - low_[0]);
+  }
+  void fillTable() {
+    for (std::size_t k = 0; k + 1 < runStart_.size(); ++k)
+      table_[placeOf(cellOf(sites_[runStart_[k]].position))] = {runStart_[k], runStart_[k + 1]};
   }
 
   double cellSize_, maxRadius_ = 0;
-  Cell low_, high_;  ///< of the cells that are not empty
-  CellHash cells_;
+  Cell low_, high_;         ///< of the cells that are not empty
+  std::vector<Run> table_;  ///< of the cells in the box low_ .. high_, x fastest; empty if that is too large
+  CellHash cells_;          ///< instead of it
   std::vector<Site> sites_;
+  std::array<std::vector<double>, 4> columns_;
   std::vector<std::int32_t> runStart_;
 };
 
@@ -138,17 +174,19 @@ class Vicinity {
 
  private:
   void gatherRing() {
-    const std::size_t first = site.size();
     grid_->visitRing(centre_, static_cast<std::int64_t>(ringEnd_.size()),
-                     [this](const SiteGrid::Site& found) { site.push_back(&found); });
+                     [this](std::int32_t begin, std::int32_t end) { add(begin, end); });
     ringEnd_.push_back(site.size());
-    const std::size_t room = site.size() + kLanes;
-    if (x.size() < room)
-      for (auto* column : {&x, &y, &z, &radius}) column->resize(2 * room);
-    for (std::size_t k = first; k < site.size(); ++k) {
-      const Vector3d& position = site[k]->position;
-      x[k] = position.x(), y[k] = position.y(), z[k] = position.z(), radius[k] = site[k]->ball.radius;
+  }
+  void add(std::int32_t begin, std::int32_t end) {
+    const std::size_t first = site.size(), room = first + static_cast<std::size_t>(end - begin) + kLanes;
+    std::vector<double>* const columns[4] = {&x, &y, &z, &radius};
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (columns[c]->size() < room) columns[c]->resize(2 * room);
+      const double* from = &grid_->columns()[c][static_cast<std::size_t>(begin)];
+      std::copy(from, from + (end - begin), columns[c]->begin() + static_cast<std::ptrdiff_t>(first));
     }
+    for (std::int32_t s = begin; s < end; ++s) site.push_back(&grid_->sites()[static_cast<std::size_t>(s)]);
   }
 
   const SiteGrid* grid_ = nullptr;
@@ -178,10 +216,7 @@ class InflatedCell {
   /// Sites that may share a face with it.
   const std::vector<Neighbour>& neighbours() const { return neighbours_; }
   /// Whether neighbour k does.
-  bool sharesFace(std::size_t k) {
-    const double farHeight = neighbours_[k].distance - planes_.height[k];
-    return !clipper_.clip(planes_, k, {reach_, 0, reach_, farHeight}).empty;
-  }
+  bool sharesFace(std::size_t k) { return clipper_.leavesAny(planes_, k, reach_); }
 
  private:
   struct Candidate {

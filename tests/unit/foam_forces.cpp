@@ -11,6 +11,7 @@
 #include "foam/forces/inertia.h"
 #include "foam/forces/liquid_adhesion.h"
 #include "foam/forces/strong_spring.h"
+#include "foam/forces/volume_response.h"
 #include "foam/forces/wall_contact.h"
 #include "tests/foam_fixtures.h"
 
@@ -216,6 +217,18 @@ TEST(StrongSpring, WetnessMayBeTheSameEverywhereOrEachBubblesOwn) {
 TEST(ContactDamping, IsTheCriticalShareOfThePair) {
   // Two masses m on a spring k have reduced mass m/2: critical at 2 sqrt(k m / 2).
   EXPECT_DOUBLE_EQ(contactDamping(0.5, 8, 2, 2), std::sqrt(8.0));
+}
+
+TEST(VolumeResponse, IsTheSwellingOfTheRestLengthAndGrowsAsTheFreeSurfaceShrinks) {
+  // Equal balls of radius 1: d l / d r_i = (1 + (3 lambda - 1)/2) / l with l^2 = 1 + 3 lambda.
+  const SqueezedBubble free{1, 0.3, 9}, squeezed{1, 0.3, 4.5};
+  const auto slope = [](double wetness) { return (1 + (3 * wetness - 1) / 2) / std::sqrt(1 + 3 * wetness); };
+  const double dry = volumeResponse(free, free, 0);
+  EXPECT_GT(dry, 0);
+  for (const double wetness : {0.2, 1.0 / 3, 0.7, 1.0})
+    EXPECT_NEAR(volumeResponse(free, free, wetness) / dry, slope(wetness) / slope(0), 1e-12) << wetness;
+  EXPECT_NEAR(volumeResponse(squeezed, squeezed, 0.4) / volumeResponse(free, free, 0.4), 2, 1e-12);
+  EXPECT_EQ(volumeResponse(free, squeezed, 0.4), volumeResponse(squeezed, free, 0.4));
 }
 
 }  // namespace

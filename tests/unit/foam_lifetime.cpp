@@ -159,12 +159,14 @@ TEST(Lifetime, CoalescenceKeepsGasCentroidAndMomentum) {
   const std::vector<double> mass{2e-6, 5e-6};
   const Eigen::Vector3d centroid = (1e-9 * b.position[0] + 3e-9 * b.position[1]) / 4e-9;
   const Eigen::Vector3d momentum = 2e-6 * b.velocity[0] + 5e-6 * b.velocity[1];
+  b.wetness = {0.2, 0.6};
   const double ball = std::pow(b.radius[1], 3) / b.gas[1];
   coalesce(0, 1, mass, b);
   EXPECT_NEAR(b.gas[1], 4e-9, 4e-9 * kRound);
   EXPECT_LE((b.position[1] - centroid).norm(), kRound);
   EXPECT_LE(((2e-6 + 5e-6) * b.velocity[1] - momentum).norm(), kRound * momentum.norm());
   EXPECT_NEAR(std::pow(b.radius[1], 3) / b.gas[1], ball, ball * kRound);
+  EXPECT_NEAR(b.wetness[1], (0.2 * 1 + 0.6 * 3) / 4, kRound);  // of the liquid between them, by gas
 }
 
 TEST(Lifetime, AirClustersWithoutSupportEndWithinTheirTime) {
@@ -184,6 +186,26 @@ TEST(Lifetime, AirClustersWithoutSupportEndWithinTheirTime) {
   std::sort(ended.begin(), ended.end());
   ended.erase(std::unique(ended.begin(), ended.end()), ended.end());
   EXPECT_EQ(ended, (std::vector<std::size_t>{3, 4, 5}));
+}
+
+TEST(Lifetime, WithoutSupportTheClockRunsOutSteadily) {
+  // A share dt / kUnsupportedLife of the threshold a step, whatever it is: all end together.
+  constexpr double kStep = kUnsupportedLife / 20;
+  OpenBubbles open(50, 1e-3);
+  std::fill(open.supported.begin(), open.supported.end(), 0);
+  FoamParams params;
+  params.burstMedianLife = 1e9;
+  std::size_t ended = 0;
+  for (int step = 1; step <= 19; ++step)
+    ended += endLives(params, open.topology, open.supported, open.psi(), kStep, open.bubbles).size();
+  EXPECT_EQ(ended, 0u);
+  for (std::size_t i = 0; i < 50; ++i) {
+    const double threshold = burstThreshold(params.seed, open.bubbles.id[i]);
+    EXPECT_NEAR(open.bubbles.exposure[i], 0.95 * threshold, 1e-9 * threshold) << i;
+  }
+  // One more would be the last but for the round-off of twenty sums.
+  endLives(params, open.topology, open.supported, open.psi(), kStep, open.bubbles);
+  EXPECT_GE(endLives(params, open.topology, open.supported, open.psi(), kStep, open.bubbles).size(), 50u);
 }
 
 }  // namespace

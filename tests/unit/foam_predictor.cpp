@@ -72,5 +72,34 @@ TEST(Predictor, FreeFlightIsAParabola) {
   EXPECT_EQ(predictVelocity(b, 0.01).x(), 0.1);
 }
 
+TEST(LoneBubble, SurfaceStiffnessIsTheSlopeOfTheSurfaceForce) {
+  constexpr double kStep = 1e-9, kDifference = 1e-5;  // [m]; central differences of a cubic over a radius
+  for (const double start : {-2e-3, -0.5e-3, 0.4e-3}) {
+    const LoneBubble b = bubbleNear(start, {0, 0, 0});
+    for (const double phi : {-0.8e-3, -0.3e-3, 0.2e-3, 0.7e-3}) {
+      const double slope =
+          (b.surfaceForce(phi + kStep) - b.surfaceForce(phi - kStep)).dot(b.up) / (2 * kStep);
+      EXPECT_NEAR(b.surfaceStiffness(phi), slope, kDifference * std::abs(slope)) << start << " " << phi;
+      EXPECT_LT(b.surfaceStiffness(phi), 0);
+    }
+  }
+}
+
+TEST(LoneBubble, EveryDragOpposesItsSlip) {
+  const Eigen::Vector3d v(0.1, 0, -0.05), stream(0.02, 0.03, 0);
+  LoneBubble b = bubbleNear(0, {0, 0, 0});
+  b.liquidVelocity = stream;
+  const auto added = [&](double LoneBubble::*coefficient, double value) -> Eigen::Vector3d {
+    LoneBubble with = b, without = b;
+    with.*coefficient = value, without.*coefficient = 0;
+    return with.force(v, 0) - without.force(v, 0);
+  };
+  const Eigen::Vector3d slip = v - stream;
+  constexpr double kRound = 1e-12;  // of the force, beside the bubble's buoyancy
+  EXPECT_LE((added(&LoneBubble::viscousDrag, 2e-3) + 2e-3 * slip).norm(), kRound);
+  EXPECT_LE((added(&LoneBubble::airDrag, 3e-3) + 3e-3 * v).norm(), kRound);
+  EXPECT_LE((added(&LoneBubble::drag, 4e-2) + 4e-2 * slip.norm() * slip).norm(), kRound);
+}
+
 }  // namespace
 }  // namespace spume::foam::test
