@@ -79,6 +79,33 @@ TEST(WeakAttraction, DrawsTwoFloatingBubblesTogether) {
   EXPECT_LT(before, 2e-3);  // they have met
 }
 
+TEST(WeakAttraction, PullsOnManyFloatingBubblesAddUpToNothing) {
+  constexpr double kRound = 1e-15;  // accuracy, W1: of the sum of all pulls
+  FoamParams params = makePreset(Preset::physical);
+  const StillPool pool = openPool(params);
+  BubbleStore bubbles;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    CounterRandom random(23, i, 1);
+    const double x = random.uniform(), z = random.uniform(), r = 0.3e-3 + 0.9e-3 * random.uniform();
+    bubbles.add(bubbleAt({0.06 * x, 0, 0.06 * z}, r, {0, 0, 0}, BubbleClass::surface));
+    bubbles.surfaceWeight.back() = 0.2 + 0.8 * random.uniform();
+  }
+  Surroundings around;
+  around.sample(pool, bubbles.positions());
+  FoamTopology topology;
+  PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  for (const AttractionLaw law : {AttractionLaw::coefficient, AttractionLaw::capillary}) {
+    params.attractionLaw = law;
+    Vectors3 force;
+    Attraction().compute(params, bubbles, around, pool, topology, force);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double pulls = 0;
+    for (const Eigen::Vector3d& f : force) sum += f, pulls += f.norm();
+    EXPECT_GT(pulls, 0);
+    EXPECT_LE(sum.norm(), kRound * pulls);
+  }
+}
+
 TEST(SolidAttraction, WettingAttractsAndNonWettingRepels) {
   FoamParams params = makePreset(Preset::physical);
   params.attractionLaw = AttractionLaw::capillary;
