@@ -66,7 +66,13 @@ std::vector<ResultRow> terminalSpeeds(const StudyContext&) {
   return rows;
 }
 
-/// Lives [s] of bubbles in the open, ascending.
+/// Steps of 1 to 20 ms, drawn anew each time.
+double randomStep(std::uint64_t step) {
+  foam::CounterRandom random(13, step, 5);
+  return 1e-3 * std::pow(20, random.uniform());
+}
+
+/// Lives [s] of bubbles in the open, ascending; dt = 0: at random steps.
 std::vector<double> lives(const foam::FoamParams& params, std::size_t count, double radius, double dt) {
   foam::BubbleStore bubbles;
   foam::FoamTopology topology;
@@ -78,10 +84,11 @@ std::vector<double> lives(const foam::FoamParams& params, std::size_t count, dou
   topology.hidden.assign(count, 0);
   const std::vector<std::uint8_t> supported(count, 1);
   std::vector<double> found;
-  while (bubbles.size() > 0) {
+  for (std::uint64_t step = 0; bubbles.size() > 0; ++step) {
+    const double length = dt > 0 ? dt : randomStep(step);
     std::vector<std::uint8_t> gone(bubbles.size(), 0);
     const Eigen::VectorXd psi = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(bubbles.size()));
-    for (const auto& life : foam::endLives(params, topology, supported, psi, dt, bubbles))
+    for (const auto& life : foam::endLives(params, topology, supported, psi, length, bubbles))
       gone[life.index] = 1, found.push_back(life.age);
     bubbles.remove(gone);
   }
@@ -96,7 +103,7 @@ std::vector<ResultRow> lifetimes(const StudyContext&) {
   foam::FoamParams params;
   params.burstMedianLife = 1;
   std::vector<ResultRow> rows;
-  for (const double dt : kSteps) {
+  for (const double dt : {kSteps[0], kSteps[1], kSteps[2], 0.0}) {
     const std::vector<double> found = lives(params, kCount, params.burstReferenceRadius, dt);
     double worst = 0;
     for (std::size_t k = 0; k < kCount; ++k) {
@@ -105,7 +112,7 @@ std::vector<ResultRow> lifetimes(const StudyContext&) {
                         std::abs(exact - static_cast<double>(k + 1) / kCount)});
     }
     ResultRow distance{
-        .resolution = std::to_string(kCount) + " lives, dt " + std::to_string(std::lround(1e3 * dt)) + " ms",
+        .resolution = std::to_string(kCount) + " lives, dt " + (dt > 0 ? stepName(dt) : "1-20 ms at random"),
         .quantity = "distance from Rayleigh's distribution",
         .reference = "1.63/sqrt(n) at p = 0.01",
         .source = "Kolmogorov-Smirnov"};
