@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace {
 struct BadFile {
   std::string name, contents;
   std::vector<std::string> expected;
+
+  friend void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.name; }
 };
 
 std::string messageOf(const BadFile& bad) {

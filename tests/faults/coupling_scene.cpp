@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <ostream>
 
 #include "coupling/scene_toml.h"
 #include "tests/support/temporary_path.h"
@@ -38,6 +39,8 @@ struct BadInput {
   std::string name, text;
   std::vector<std::string> expected;  ///< parts of the message: place, key, value, range, remedy
   Overrides overrides{};
+
+  friend void PrintTo(const BadInput& bad, std::ostream* out) { *out << bad.name; }
 };
 
 class BadScene : public testing::TestWithParam<BadInput> {};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 
 #include "tests/support/measured_foam.h"
 
@@ -29,6 +30,8 @@ struct Case {
   std::string name;
   Balls balls;
   std::vector<double> volumes;
+
+  friend void PrintTo(const Case& given, std::ostream* out) { *out << given.name; }
 };
 
 const std::vector<Vector3d> kSimple = {Vector3d::Zero()};
