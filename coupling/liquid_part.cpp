@@ -14,8 +14,9 @@ class MovingLiquid : public LiquidPart {
  public:
   MovingLiquid(const Scene& scene, fluid::LiquidSolver solver) : scene_(scene), solver_(std::move(solver)) {}
 
-  fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas) override {
-    return solver_.step(dt, gas);
+  fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas,
+                               const std::vector<fluid::Push>& pushes) override {
+    return solver_.step(dt, gas, pushes);
   }
   void rollBack() override { solver_.rollBack(); }
   double stableDt(int maxSubSteps) const override { return solver_.stableDt(maxSubSteps); }

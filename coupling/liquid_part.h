@@ -15,7 +15,8 @@ class LiquidPart {
   virtual ~LiquidPart() = default;
 
   /// Advances by dt [s]. Throws fluid::NumericalFailure, and then the state is as it was before the call.
-  virtual fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas) = 0;
+  virtual fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas,
+                                       const std::vector<fluid::Push>& pushes) = 0;
   /// Takes the last successful step back.
   virtual void rollBack() = 0;
   /// Largest dt [s] of a step in at most `maxSubSteps` sub-steps.

@@ -138,6 +138,7 @@ std::vector<std::string> switchedOff(const Scene& scene) {
   const std::pair<bool, const char*> features[] = {
       {scene.coupling.entrainment.enabled, "entrainment: no bubble is born from the liquid's motion"},
       {scene.coupling.immersedGas, "immersed gas: bubbles do not raise the surface"},
+      {scene.coupling.twoWay, "two-way coupling: the liquid does not feel the drag of bubbles"},
       {scene.liquid.volumeControl, "volume control: the level set may lose or gain liquid"},
       {scene.foam.bursting, "bursting: bubbles live for ever"},
       {!scene.stillPool.enabled, "liquid motion: a pool at rest in closed form"},

@@ -190,6 +190,7 @@ struct EntrainmentSpec {
 struct CouplingSpec {
   EntrainmentSpec entrainment;
   bool immersedGas = true;  ///< bubbles under the surface raise it
+  bool twoWay = false;      ///< the liquid feels the drag of the bubbles
 };
 
 struct OutputSpec {

@@ -78,6 +78,7 @@ KeyTable liquidTable() {
 KeyTable couplingTable() {
   return partTable("coupling", "What liquid and foam do to each other.", &Scene::coupling)
       .key("immersed_gas", &CouplingSpec::immersedGas, "bubbles under the surface raise it")
+      .key("two_way", &CouplingSpec::twoWay, "the liquid feels the drag of the bubbles: plumes rise with them")
       .build();
 }
 

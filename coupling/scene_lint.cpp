@@ -210,6 +210,8 @@ class Linter {
       add(Severity::note, "still_pool.level", scene_.stillPool.level,
           " m lies outside the domain, which goes from ", bottom, " to ", top,
           " m: there is no surface in it");
+    if (scene_.coupling.twoWay)
+      add(Severity::note, "coupling.two_way", "true does nothing: the liquid of a still pool does not move");
   }
 
   const Scene& scene_;

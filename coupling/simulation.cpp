@@ -8,6 +8,7 @@
 
 #include "coupling/foam_objects.h"
 #include "coupling/liquid_part.h"
+#include "coupling/momentum_exchange.h"
 #include "coupling/probes.h"
 #include "coupling/time_step.h"
 #include "fluid/errors.h"
@@ -79,6 +80,7 @@ struct Simulation::Internals {
   foam::BubbleStore bubbles;
   Reservoirs reservoirs;
   SupplyState supply;
+  std::vector<fluid::Push> pushes;
   GasLedger gas;
   int frame = 0, steps = 0;
   double time = 0, initialVolume = 0, poured = 0, drained = 0;
@@ -119,7 +121,7 @@ void Simulation::Internals::stepLiquid(double dt, StepReport& report) {
   const Stopwatch watch;
   const fluid::ImmersedGas immersed = immersedGas();
   for (const double volume : immersed.volume) report.immersedGas += volume;
-  report.liquid = liquid->step(dt, immersed);
+  report.liquid = liquid->step(dt, immersed, pushes);
   report.secondsLiquid = watch.seconds();
 }
 
@@ -159,15 +161,21 @@ void Simulation::Internals::stepFoam(double dt, StepReport& report) {
   const double wanted = std::max(foamDt, scene.time.minDt);
   const int subSteps = std::max(1, static_cast<int>(std::ceil(dt / wanted - kRoundOff)));
   double burst = 0;
+  std::vector<fluid::Push> given;
   for (int n = 0; n < subSteps; ++n) {
     foam::FoamStepReport now = foam.step(bubbles, *fields, dt / subSteps);
     takeFoamEvents(now, report);
+    if (scene.coupling.twoWay) {
+      const std::vector<fluid::Push> pushed = reactions(foam.dragImpulses());
+      given.insert(given.end(), pushed.begin(), pushed.end());
+    }
     burst += now.gasBurst;
     now.solverIterations += report.foam.solverIterations;
     now.pushedOut += report.foam.pushedOut;
     addStageTimes(report.foam.stages, now.stages);
     report.foam = std::move(now);
   }
+  pushes = std::move(given);
   report.foam.gasBurst = burst;
   report.foamSubSteps = subSteps;
   gas.burst += burst;
@@ -246,6 +254,7 @@ Simulation::Simulation(const Scene& scene, SimulationState state)
   in.bubbles = std::move(state.bubbles);
   in.reservoirs = std::move(state.reservoirs);
   in.supply = std::move(state.supply);
+  in.pushes = std::move(state.pushes);
   in.gas = state.gas;
   in.frame = state.frame;
   in.steps = state.step;
@@ -313,6 +322,7 @@ SimulationState Simulation::state() const {
   state.bubbles = in.bubbles;
   state.reservoirs = in.reservoirs;
   state.supply = in.supply;
+  state.pushes = in.pushes;
   state.gas = in.gas;
   state.initialVolume = in.initialVolume;
   state.poured = in.poured;

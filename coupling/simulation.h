@@ -51,6 +51,7 @@ struct SimulationState {
   foam::BubbleStore bubbles;
   Reservoirs reservoirs;
   SupplyState supply;
+  std::vector<fluid::Push> pushes;  ///< of the bubbles, for the liquid's next step
   GasLedger gas;
   double initialVolume = 0, poured = 0, drained = 0;        ///< [m^3]
   double foamDt = std::numeric_limits<double>::infinity();  ///< longest next step the foam asked for [s]

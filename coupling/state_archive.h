@@ -195,11 +195,17 @@ void archive(Archive& a, SupplyState& supply) {
 }
 
 template <typename Archive>
+void archive(Archive& a, fluid::Push& push) {
+  auto& [position, impulse, resistance] = push;
+  archiveAll(a, position, impulse, resistance);
+}
+
+template <typename Archive>
 void archive(Archive& a, SimulationState& state) {
-  auto& [frame, step, time, liquid, bubbles, reservoirs, supply, gas, initialVolume, poured, drained,
+  auto& [frame, step, time, liquid, bubbles, reservoirs, supply, pushes, gas, initialVolume, poured, drained,
          foamDt] = state;
-  archiveAll(a, frame, step, time, liquid, bubbles, reservoirs, supply, gas, initialVolume, poured, drained,
-             foamDt);
+  archiveAll(a, frame, step, time, liquid, bubbles, reservoirs, supply, pushes, gas, initialVolume, poured,
+             drained, foamDt);
 }
 
 }  // namespace spume::coupling

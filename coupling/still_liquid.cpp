@@ -148,7 +148,8 @@ void StillLiquid::fillPressure(const Scene& scene) {
         pressure_(i, j, k) = static_cast<float>(weight.norm()) * std::max(0.0f, -state_.phi(i, j, k));
 }
 
-fluid::LiquidStepReport StillLiquid::step(double dt, const fluid::ImmersedGas&) {
+fluid::LiquidStepReport StillLiquid::step(double dt, const fluid::ImmersedGas&,
+                                          const std::vector<fluid::Push>&) {
   state_.time += dt;
   lastStep_ = dt;
   fluid::LiquidStepReport report;

@@ -48,7 +48,8 @@ class StillLiquid : public LiquidPart {
   /// At time `time` [s]. Throws SceneError.
   explicit StillLiquid(const Scene& scene, double time = 0);
 
-  fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas) override;
+  fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas,
+                               const std::vector<fluid::Push>& pushes) override;
   void rollBack() override;
   double stableDt(int maxSubSteps) const override;
   double liquidVolume() const override { return volume_; }

@@ -39,11 +39,12 @@ LiquidSolver::LiquidSolver(FluidParams params, LiquidSetup setup, LiquidState st
 LiquidSolver::~LiquidSolver() = default;
 LiquidSolver::LiquidSolver(LiquidSolver&&) noexcept = default;
 
-LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas) {
+LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std::vector<Push>& pushes) {
   LiquidStages& in = *internals_;
   in.before = in.state;
   in.escapedBefore = in.escaped.size();
   in.collapsedBefore = in.collapsed.size();
+  in.pushed = pushes;
   LiquidStepReport report;
   StageClock clock;
   const double end = in.state.time + dt;

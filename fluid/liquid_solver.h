@@ -9,6 +9,7 @@
 #include "fluid/inflow.h"
 #include "fluid/liquid_state.h"
 #include "fluid/outflow.h"
+#include "fluid/pushes.h"
 #include "fluid/solid_boundary.h"
 #include "fluid/stage_clock.h"
 
@@ -53,6 +54,7 @@ struct LiquidStepReport {
   double dropVolume = 0;    ///< in them
   double launched = 0;      ///< became drops in this step
   double landed = 0;        ///< came back from drops in this step
+  PushReport pushes;              ///< what became of the step's
   double kineticEnergy = 0, potentialEnergy = 0;  ///< of grid liquid and drops [J]
   std::size_t positiveMarkers = 0, negativeMarkers = 0;
   std::vector<StageTime> stages;
@@ -81,9 +83,9 @@ class LiquidSolver {
   ~LiquidSolver();
   LiquidSolver(LiquidSolver&&) noexcept;
 
-  /// Advances by dt [s] in as many sub-steps as the CFL limit asks for. Throws NumericalFailure, and then the
-  /// state is as it was before the call.
-  LiquidStepReport step(double dt, const ImmersedGas& gas = {});
+  /// Advances by dt [s] in as many sub-steps as the CFL limit asks for; `pushes` act at once, in the first of
+  /// them. Throws NumericalFailure, and then the state is as it was before the call.
+  LiquidStepReport step(double dt, const ImmersedGas& gas = {}, const std::vector<Push>& pushes = {});
 
   /// Takes the last successful step back, as when another module failed in the same shared step.
   void rollBack();

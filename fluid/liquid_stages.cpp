@@ -205,12 +205,16 @@ void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& rep
   pocketBooks.update(pockets, state.velocity, dt);
 }
 
-void LiquidStages::moveVelocity(double dt) {
+void LiquidStages::moveVelocity(double dt, LiquidStepReport& report) {
   if (params.velocityAdvection == VelocityAdvection::trapezoidal)
     acceleration.advect(state.phi, dt, velocityAdvector, state.velocity);
   else
     velocityAdvector.advance(params.velocityAdvection, state.phi, dt, state.velocity);
   depositMomentum(state.grid, landed, state.velocity);
+  if (!pushed.empty()) {
+    report.pushes = pushes.apply(state.grid, params.density, state.phi, solids.open, pushed, state.velocity);
+    pushed.clear();
+  }
   constrainToSolids(solids, state.velocity);
   inflows.setVelocity(state.velocity);
 }
@@ -279,7 +283,7 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("reseed", [&] { reseed(); });
   clock.time("pockets", [&] { fillPockets(dt); });
   clock.time("inflow", [&] { pour(dt, gas, report); });
-  clock.time("advection", [&] { moveVelocity(advance); });
+  clock.time("advection", [&] { moveVelocity(advance, report); });
   if (params.viscosity > 0) clock.time("viscosity", [&] { applyViscosity(advance); });
   clock.time("pressure", [&] { project(dt, advance, report); });
   clock.time("extrapolation", [&] { extrapolate(); });

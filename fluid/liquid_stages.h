@@ -16,6 +16,7 @@
 #include "fluid/path_acceleration.h"
 #include "fluid/pocket_books.h"
 #include "fluid/projection.h"
+#include "fluid/pushes.h"
 #include "fluid/reinitialize.h"
 #include "fluid/solid_extension.h"
 #include "fluid/velocity_advection.h"
@@ -57,12 +58,14 @@ struct LiquidStages {
   LiquidBodies bodies;
   VolumeControl volumeControl;
   Viscosity viscosity;
+  Pushes pushes;
   Projection projection;
   MacVelocity surfaceVelocity;  // carries the surface and its markers
   DenseField<float> source, psiBefore;
   DenseField<std::int32_t> cellMark;
 
   std::vector<Drop> landed;  // in this sub-step
+  std::vector<Push> pushed;  // not yet given to the liquid
   std::vector<EscapedMarker> escaped;
   std::vector<CollapsedPocket> collapsed;
   std::size_t escapedBefore = 0, collapsedBefore = 0;
@@ -85,7 +88,7 @@ struct LiquidStages {
   void findPockets(double t);
   void fillPockets(double dt);
   void pour(double dt, const ImmersedGas& gas, LiquidStepReport& report);
-  void moveVelocity(double dt);
+  void moveVelocity(double dt, LiquidStepReport& report);
   void applyViscosity(double dt);
   void leapAhead(double dt);
   double velocityAdvance(double dt) const;

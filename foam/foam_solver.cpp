@@ -92,6 +92,7 @@ struct FoamSolver::Internals {
   Attraction attraction;
   Vectors3 pull;
   Eigen::VectorXd phiEnd, psiEnd;
+  double lastDt = 0;  ///< [s]
   /// The bubbles while they change, in space order: what is near in the foam is near in memory. The caller's
   /// stay whole until the end.
   BubbleStore next;
@@ -239,6 +240,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, s.walls, dt);
   clock.end("solve");
   s.integrator.advance(dt, s.next);
+  s.lastDt = dt;
   requireFinite(s.next);
   report.pushedOut = keepOutOfSolids(liquid, s.next);
   if (holdsVolumes(s.params)) s.holdVolumes(liquid);
@@ -253,6 +255,16 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   s.giveBack(bubbles);
   s.summarise(bubbles, report);
   return report;
+}
+
+std::vector<DragImpulse> FoamSolver::dragImpulses() const {
+  const Internals& s = *internals_;
+  std::vector<DragImpulse> impulses;
+  for (std::size_t i = 0; i < s.next.size(); ++i) {
+    const Eigen::Vector3d impulse = s.integrator.dragImpulse(i, s.lastDt);
+    if (!impulse.isZero(0)) impulses.push_back({s.next.position[i], impulse, s.integrator.slip(i)});
+  }
+  return impulses;
 }
 
 double FoamSolver::stableDt(const BubbleStore& bubbles) const {

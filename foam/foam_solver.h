@@ -11,6 +11,13 @@
 
 namespace spume::foam {
 
+/// What the liquid's drag gave a bubble in a step; the liquid is owed the opposite.
+struct DragImpulse {
+  Eigen::Vector3d position;  ///< of the bubble, at the step's end [m]
+  Eigen::Vector3d impulse;   ///< [N s]
+  double slip;               ///< the larger of those at the step's ends [m/s]
+};
+
 enum class FoamEventKind { burst, merge, classChange };
 
 /// Something that happened to a bubble during a step.
@@ -59,6 +66,9 @@ class FoamSolver {
   /// Advances all bubbles by dt [s]. Throws NumericalFailure, and then the store is as it was before the
   /// call.
   FoamStepReport step(BubbleStore& bubbles, const LiquidSampler& liquid, double dt);
+
+  /// What drag did in the last step, in the order of the foam's rows; bubbles without drag left out.
+  std::vector<DragImpulse> dragImpulses() const;
 
   /// Largest dt [s] for which 95 of 100 pairs of neighbours move relative to each other by no more than half
   /// the smaller radius. The few others are bubbles that rise into a pile, and what they run into stops them.

@@ -166,6 +166,20 @@ double Integrator::smallestGoal() const {
                   kRestSpeed * std::sqrt(sum.y()));
 }
 
+Eigen::Vector3d Integrator::dragImpulse(std::size_t i, double dt) const {
+  const LoneBubble& lone = lone_[i];
+  if (lone.drag == 0 && lone.viscousDrag == 0) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& v = velocity_[i];
+  const Eigen::Vector3d others = motion_[i].matrix * (v - motion_[i].velocity);
+  const Eigen::Vector3d forces = lone.weight + lone.surfaceForce(lone.phiAfter(v, dt)) - lone.airDrag * v;
+  return lone.mass * (v - lone.velocity) - dt * forces - others;
+}
+
+double Integrator::slip(std::size_t i) const {
+  const Eigen::Vector3d& u = lone_[i].liquidVelocity;
+  return std::max((lone_[i].velocity - u).norm(), (velocity_[i] - u).norm());
+}
+
 double Integrator::kineticEnergy() const {
   return reduceIndices(
       mass_.size(), 0.0, [&](std::size_t i) { return 0.5 * mass_[i] * velocity_[i].squaredNorm(); },

@@ -39,6 +39,12 @@ class Integrator {
   /// Moves the bubbles with their new velocities.
   void advance(double dt, BubbleStore& bubbles) const;
 
+  /// What drag has given bubble `i` over the step of the last couple(), by the balance of its momentum: the
+  /// rest of it comes from weight, buoyancy, the surface, the air and the neighbours [N s].
+  Eigen::Vector3d dragImpulse(std::size_t i, double dt) const;
+  /// The larger of its slips at the step's ends [m/s].
+  double slip(std::size_t i) const;
+
   const std::vector<double>& mass() const { return mass_; }  ///< inertia of each bubble [kg]
   const Vectors3& velocities() const { return velocity_; }
   /// The system of the last couple(), with the wall contacts it ended with.

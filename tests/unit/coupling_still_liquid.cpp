@@ -45,7 +45,7 @@ TEST(StillLiquid, HoldsItsVolumeForEver) {
   StillLiquid liquid(scene);
   // The solid's faces lie on faces of cells, so the volume is exact up to float.
   EXPECT_NEAR(liquid.liquidVolume(), (0.1 * 0.1 - 0.05 * 0.05) * 0.033, 1e-6 * 1e-3);
-  const fluid::LiquidStepReport report = liquid.step(0.1, {});
+  const fluid::LiquidStepReport report = liquid.step(0.1, {}, {});
   EXPECT_EQ(report.liquidVolume, report.targetVolume);
   EXPECT_EQ(report.maxSpeed, 0);
   EXPECT_NEAR(liquid.state().time, 0.1, 1e-15);
