@@ -104,6 +104,8 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
            [](const R& r) { return r.liquid.launched; }),
       step("drops_landed", "m^3", "came back in this step", [](const R& r) { return r.liquid.landed; }),
       step("immersed_gas", "m^3", "of bubbles under the surface", [](const R& r) { return r.immersedGas; }),
+      step("push_withheld", "N s", "of the bubbles' drag, from liquid that is lighter than they or not there",
+           [](const R& r) { return r.liquid.pushes.withheld.norm(); }),
       step("kinetic_energy", "J", "of the liquid", [](const R& r) { return r.liquid.kineticEnergy; }),
       step("potential_energy", "J", "of the liquid", [](const R& r) { return r.liquid.potentialEnergy; }),
       step("positive_markers", "-", "in the air", [](const R& r) { return r.liquid.positiveMarkers; }),
