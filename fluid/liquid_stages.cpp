@@ -59,6 +59,8 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
   state.grid = setup.grid;
   solids.sides.walkReach = static_cast<int>(std::ceil(params.cfl)) + kStencilReach;
   params.gravity.cwiseAbs().maxCoeff(&solids.sides.upAxis);
+  const double down = params.gravity[solids.sides.upAxis];
+  solids.sides.upSense = (down < 0) - (down > 0);
   if (!setup.solids.empty()) solids.sides.find(solids);
 }
 

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "fluid/level_set.h"
@@ -21,6 +22,7 @@ struct SolidExtension::Finder {
   const SolidBoundary& solids;
   const DenseField<float>* before;
   int up;
+  int upSense;
   List covered = {}, uncovered = {};
 
   bool isFree(const Eigen::Vector3i& c) const {
@@ -61,7 +63,8 @@ struct SolidExtension::Finder {
         if (d.squaredNorm() < nearest) nearest = d.squaredNorm(), first = d;
       });
       if (nearest == std::numeric_limits<int>::max()) continue;
-      Entry entry{offsetOf(c), offsetOf(c + first), static_cast<std::uint32_t>(list.sources.size()), 0};
+      Entry entry{offsetOf(c), offsetOf(c + first), static_cast<std::uint32_t>(list.sources.size()), 0,
+                  first[up] * upSense > 0};
       levelOnly ? addLevel(c, reach, nearest, list) : addSlope(c, first, list);
       entry.end = static_cast<std::uint32_t>(list.sources.size());
       list.entries.push_back(entry);
@@ -95,7 +98,7 @@ void SolidExtension::rebuild(const SolidBoundary& solids, const DenseField<float
   covered_ = uncovered_ = {};
   const Eigen::Vector3i& cells = solids.cellFraction.size();
   if (solids.sides.openings().size() != cells) return;  // no solid
-  std::vector<Finder> slabs(cells.x(), Finder{solids, before, solids.sides.upAxis});
+  std::vector<Finder> slabs(cells.x(), Finder{solids, before, solids.sides.upAxis, solids.sides.upSense});
   tbb::parallel_for(0, cells.x(), [&](int i) {
     for (int j = 0; j < cells.y(); ++j)
       for (int k = 0; k < cells.z(); ++k) slabs[i].visit({i, j, k});
@@ -119,7 +122,7 @@ void SolidExtension::fill(const List& list, DenseField<float>& field) {
     float sum = 0;
     for (std::uint32_t s = entry.begin; s < entry.end; ++s)
       sum += list.sources[s].weight * (data[list.sources[s].cell] - first);
-    data[entry.cell] = first + sum;
+    data[entry.cell] = first + (entry.floor && first < 0 ? std::min(sum, 0.0f) : sum);
   });
 }
 

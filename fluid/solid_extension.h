@@ -11,8 +11,10 @@ namespace spume::fluid {
 /// Continues cell-centred fields into the solids: nothing may read past a wall (model, "Liquid"). A cell
 /// behind a wall takes the mean of the free cells nearest to it on its own level, so that a surface at rest
 /// is level up to the wall whatever the wall's slope, and a moving one meets it at 90 degrees along the
-/// level; where its level is all solid, the two levels before it are continued linearly. Only cells on its
-/// own side of a thin wall count (WallSides).
+/// level; where its level is all solid, the two levels before it are continued linearly. Below liquid that
+/// goes no higher than the liquid's own value: the cells of a floor do not move, so a surface that the slope
+/// makes there would stay, air that nothing can lift. Only cells on its own side of a thin wall count
+/// (WallSides).
 class SolidExtension {
  public:
   /// Finds the cells behind walls and where their values come from. Call again whenever solids have moved;
@@ -33,6 +35,7 @@ class SolidExtension {
   struct Entry {
     std::int32_t cell, first;
     std::uint32_t begin, end;  ///< of its sources
+    bool floor;                ///< lies below `first`, under which liquid keeps no air
   };
   struct List {
     std::vector<Entry> entries;

@@ -32,6 +32,8 @@ class WallSides {
   /// Values behind walls are continued level by level across this axis: the one that gravity is along, so
   /// that a surface at rest stays exactly level.
   int upAxis = 1;
+  /// Sense of that axis against gravity: 1 or -1, 0 without gravity.
+  int upSense = 1;
   /// What a path of a sub-step may cross [cells].
   int walkReach = 7;
 

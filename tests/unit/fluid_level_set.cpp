@@ -129,5 +129,24 @@ TEST(SolidExtension, ContinuesTheSlopeIntoAFloor) {
   for (const int j : {3, 4}) EXPECT_NEAR(phi(8, j, 8), level(8, j, 8), 1e-6) << j;
 }
 
+/// A surface that sinks away under liquid: on the floor's side of it gravity says whether air can be there.
+TEST(SolidExtension, LiquidOnAFloorHasNoAirBelowItButMayUnderALid) {
+  const GridSpec grid = unitCube(16);
+  const SolidObject floor{"floor", [](const Eigen::Vector3d& x, double) { return x.y() - 0.33; }, {}, false};
+  SolidBoundary solids = buildSolidBoundary(grid, openWalls(), {floor}, 0);
+  const DenseField<float> level = levelSet(grid, [](const Eigen::Vector3d& x) { return 0.32 - x.y(); });
+  ASSERT_LT(level(8, 5, 8), 0);
+  ASSERT_GT(level(8, 4, 8), 0);
+  SolidExtension extension;
+  for (const int upSense : {1, 0, -1}) {
+    solids.sides.upSense = upSense;
+    extension.rebuild(solids);
+    DenseField<float> phi = level;
+    extension.apply(phi);
+    for (const int j : {3, 4})
+      EXPECT_NEAR(phi(8, j, 8), upSense > 0 ? level(8, 5, 8) : level(8, j, 8), 1e-6) << upSense;
+  }
+}
+
 }  // namespace
 }  // namespace spume::fluid
