@@ -92,20 +92,23 @@ struct FoamSolver::Internals {
   Attraction attraction;
   Vectors3 pull;
   Eigen::VectorXd phiEnd, psiEnd;
-  double lastDt = 0;  ///< [s]
+  std::vector<DragImpulse> impulses;
   /// The bubbles while they change, in space order: what is near in the foam is near in memory. The caller's
   /// stay whole until the end.
   BubbleStore next;
   std::vector<std::int32_t> order;  ///< the caller's row behind each row of `next`
   std::vector<std::int32_t> rowOf;  ///< row of `next` of each of the caller's, -1 once its life has ended
+  BubbleStore living;               ///< scratch
 
   void take(const BubbleStore& bubbles);
   void giveBack(BubbleStore& bubbles);
   void findWalls(const LiquidSampler& liquid);
   void measure();
-  void holdVolumes(const LiquidSampler& liquid);
-  void relabelAtEnd(const LiquidSampler& liquid);
+  void noteImpulses(double dt);
+  void sampleEnd(const LiquidSampler& liquid);
   void endLivesAndReport(double dt, FoamStepReport& report);
+  void removeEnded();
+  void holdVolumes(const LiquidSampler& liquid);
   void summarise(const BubbleStore& bubbles, FoamStepReport& report) const;
   void reportClassChanges(const BubbleStore& before, FoamStepReport& report) const;
 };
@@ -156,17 +159,24 @@ void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
   }
 }
 
-void FoamSolver::Internals::relabelAtEnd(const LiquidSampler& liquid) {
+void FoamSolver::Internals::noteImpulses(double dt) {
+  impulses.clear();
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    const Eigen::Vector3d impulse = integrator.dragImpulse(i, dt);
+    if (!impulse.isZero(0)) impulses.push_back({next.position[i], impulse, integrator.slip(i)});
+  }
+}
+
+void FoamSolver::Internals::sampleEnd(const LiquidSampler& liquid) {
   phiEnd.resize(static_cast<Eigen::Index>(next.size())), psiEnd.resize(phiEnd.size());
   if (next.size() == 0) return;
   liquid.phi(next.positions(), phiEnd);
   liquid.psi(next.positions(), psiEnd);
-  relabel(phiEnd, next);
 }
 
 void FoamSolver::Internals::reportClassChanges(const BubbleStore& before, FoamStepReport& report) const {
   for (std::size_t row = 0; row < rowOf.size(); ++row)
-    if (const std::int32_t i = rowOf[row]; next.type[i] != before.type[row])
+    if (const std::int32_t i = rowOf[row]; i >= 0 && next.type[i] != before.type[row])
       report.events.push_back({FoamEventKind::classChange, next.id[i], 0, next.position[i], next.radius[i],
                                next.gas[i], next.age[i], before.type[row], next.type[i]});
 }
@@ -186,6 +196,21 @@ void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report)
     else
       report.gasBurst += next.gas[i];
   }
+}
+
+/// Drops the rows of ended lives, so that the others' cells take their places before they are measured.
+void FoamSolver::Internals::removeEnded() {
+  std::vector<std::int32_t> rows;
+  for (std::size_t i = 0; i < next.size(); ++i)
+    if (rowOf[order[i]] >= 0) rows.push_back(static_cast<std::int32_t>(i));
+  if (rows.size() == next.size()) return;
+  living.gather(next, rows);
+  std::swap(next, living);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    order[k] = order[rows[k]], phiEnd[k] = phiEnd[rows[k]];
+    rowOf[order[k]] = static_cast<std::int32_t>(k);
+  }
+  order.resize(rows.size()), phiEnd.conservativeResize(static_cast<Eigen::Index>(rows.size()));
 }
 
 void FoamSolver::Internals::summarise(const BubbleStore& bubbles, FoamStepReport& report) const {
@@ -212,6 +237,7 @@ void FoamSolver::Internals::summarise(const BubbleStore& bubbles, FoamStepReport
 
 FoamSolver::FoamSolver(FoamParams params) : internals_(std::make_unique<Internals>(std::move(params))) {}
 FoamSolver::~FoamSolver() = default;
+const std::vector<DragImpulse>& FoamSolver::dragImpulses() const { return internals_->impulses; }
 const FoamTopology& FoamSolver::topology() const { return internals_->topology; }
 const std::vector<std::uint64_t>& FoamSolver::topologyIds() const { return internals_->topologyId; }
 const FoamParams& FoamSolver::params() const { return internals_->params; }
@@ -240,31 +266,26 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, s.walls, dt);
   clock.end("solve");
   s.integrator.advance(dt, s.next);
-  s.lastDt = dt;
   requireFinite(s.next);
   report.pushedOut = keepOutOfSolids(liquid, s.next);
+  report.kineticEnergy = s.integrator.kineticEnergy();
+  s.noteImpulses(dt);
+  clock.end("solve");
+  s.sampleEnd(liquid);
+  relabel(s.phiEnd, s.next);
+  s.endLivesAndReport(dt, report);
+  s.removeEnded();
+  clock.end("events");
   if (holdsVolumes(s.params)) s.holdVolumes(liquid);
   clock.end("volume");
-  s.relabelAtEnd(liquid);
+  relabel(s.phiEnd, s.next);
   s.reportClassChanges(bubbles, report);
-  report.kineticEnergy = s.integrator.kineticEnergy();
-  s.endLivesAndReport(dt, report);
   clock.end("events");
   report.solverIterations = solve.iterations, report.solverResidual = solve.residual;
   report.solverFellBack = solve.fellBack;
   s.giveBack(bubbles);
   s.summarise(bubbles, report);
   return report;
-}
-
-std::vector<DragImpulse> FoamSolver::dragImpulses() const {
-  const Internals& s = *internals_;
-  std::vector<DragImpulse> impulses;
-  for (std::size_t i = 0; i < s.next.size(); ++i) {
-    const Eigen::Vector3d impulse = s.integrator.dragImpulse(i, s.lastDt);
-    if (!impulse.isZero(0)) impulses.push_back({s.next.position[i], impulse, s.integrator.slip(i)});
-  }
-  return impulses;
 }
 
 double FoamSolver::stableDt(const BubbleStore& bubbles) const {

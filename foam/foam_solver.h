@@ -68,13 +68,14 @@ class FoamSolver {
   FoamStepReport step(BubbleStore& bubbles, const LiquidSampler& liquid, double dt);
 
   /// What drag did in the last step, in the order of the foam's rows; bubbles without drag left out.
-  std::vector<DragImpulse> dragImpulses() const;
+  const std::vector<DragImpulse>& dragImpulses() const;
 
   /// Largest dt [s] for which 95 of 100 pairs of neighbours move relative to each other by no more than half
   /// the smaller radius. The few others are bubbles that rise into a pile, and what they run into stops them.
   double stableDt(const BubbleStore& bubbles) const;
 
-  /// Geometry as last measured in the last step; row k is the bubble topologyIds()[k].
+  /// Geometry as last measured in the last step; row k is the bubble topologyIds()[k]. With volume_mode newton
+  /// that is the foam as the step leaves it, else as it found it.
   const FoamTopology& topology() const;
   const std::vector<std::uint64_t>& topologyIds() const;
   const FoamParams& params() const;

@@ -6,6 +6,7 @@
 #include "foam/volume_patch.h"
 #include "tests/foam_fixtures.h"
 #include "tests/support/foam_balls.h"
+#include "tests/support/foam_relaxed.h"
 
 namespace spume::foam::test {
 namespace {
@@ -220,6 +221,42 @@ TEST(VolumeCorrection, NewtonHoldsVolumesWhileBubblesMove) {
     }
     EXPECT_GT(met, 0u);
   }
+}
+
+TEST(VolumeCorrection, NewtonHoldsTheNeighboursOfWhatBurstsAndTheHeirsOfWhatMerges) {
+  // A foam in free space falls apart: measured anew after every step, what is left holds its gas.
+  constexpr double kStep = 0.01;
+  constexpr double kLeastShare = 0.3;  // of its ball a bubble's gas fills, for those the foam has swallowed
+  FoamParams params = makePreset(Preset::physical);
+  params.volumeMode = VolumeMode::newton, params.volumeTolerance = 1e-4;
+  params.burstMedianLife = 5 * kStep;
+  params.gravity.setZero();
+  BubbleStore bubbles;
+  const Balls balls = relaxedFoam(500, 0.2, 3);
+  const FoamTopology start = powerCellsOf(balls);
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    bubbles.add(bubbleAt(balls.position[i], balls.radius[i]));
+    bubbles.gas.back() = std::max(start.volume[i], kLeastShare * ballVolume(balls.radius[i]));
+  }
+  FoamSolver solver(params);
+  int merged = 0, burst = 0, judged = 0;
+  for (int step = 0; step < 8; ++step) {
+    const FoamStepReport report = solver.step(bubbles, emptySpace(), kStep);
+    for (const FoamEvent& event : report.events)
+      merged += event.kind == FoamEventKind::merge, burst += event.kind == FoamEventKind::burst;
+    EXPECT_EQ(solver.topologyIds().size(), bubbles.size());
+    Balls left;
+    for (std::size_t i = 0; i < bubbles.size(); ++i) left.add(bubbles.position[i], bubbles.radius[i]);
+    const FoamTopology cells = powerCellsOf(left);
+    for (std::size_t i = 0; i < bubbles.size(); ++i) {
+      if (bubbles.hidden[i] || bubbles.clamped[i]) continue;
+      EXPECT_NEAR(cells.volume[i] / bubbles.gas[i], 1, params.volumeTolerance) << step << " " << i;
+      ++judged;
+    }
+  }
+  EXPECT_GT(merged, 3);
+  EXPECT_GT(burst, 20);
+  EXPECT_GT(judged, 200);
 }
 
 TEST(VolumeCorrection, WeightChangesAreTheInverseOfTheDerivatives) {
