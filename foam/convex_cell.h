@@ -27,54 +27,61 @@ class ConvexCell {
   /// Takes away the points p with normal . p > offset; the normal [m], any length, and offset [m^2].
   Cut cut(const Eigen::Vector3d& normal, double offset, std::int32_t face);
 
-  /// The smallest box around the cell [m].
-  const Eigen::Vector3d& low() const { return low_; }
-  const Eigen::Vector3d& high() const { return high_; }
-  /// Distance from the centre to the farthest corner [m].
-  double farthest() const { return farthest_; }
-  /// Lists the numbers of all faces that are left but the cube's, each once, ascending.
-  void listFaces(std::vector<std::int32_t>& faces);
+  struct Box {
+    Eigen::Vector3d low, high;  ///< [m]
+  };
+  /// The smallest box around the cell.
+  const Box& box() {
+    if (boxIsOld_) findBox();
+    return box_;
+  }
+
+  struct Face {
+    std::int32_t number;
+    bool cornerWithin;  ///< a corner of it lies within the radius asked for
+  };
+  /// Lists all faces that are left but the cube's, each once, ascending; radius2 is the square of a distance
+  /// from the centre [m^2].
+  void listFaces(double radius2, std::vector<Face>& faces);
 
  private:
-  /// Edge e leads to corner next[e] and has face[e] on its left, face[e + 1] on its right. All corners turn
-  /// the same way, so the corner at the other end has the two the other way round.
+  /// Edge e has face[e] on its left and face[e + 1] on its right. It is edge next[e] % 4 of corner next[e] /
+  /// 4 at the other end; all corners turn the same way, so that one has the two faces the other way round.
   struct Corner {
     std::array<std::int32_t, 3> next;
     std::array<std::int32_t, 3> face;
   };
   /// An edge from a corner that goes to one that stays, and the new corner on it.
   struct Crossing {
-    std::int32_t goes, stays;
-    std::int32_t back;         ///< the edge as the corner that stays numbers it
+    std::int32_t back;         ///< the edge as the corner that stays has it, 4 corner + edge
     std::int32_t left, right;  ///< the faces beside the edge, seen from the corner that goes
-    std::int32_t after = -1;   ///< the crossing next along the face on the right
-    Eigen::Vector3d place;     ///< of the new corner [m]
+    std::int32_t after;        ///< the crossing next along the face on the right
+    double x, y, z;            ///< of the new corner [m]
   };
 
-  void setPlace(std::size_t corner, const Eigen::Vector3d& p) {
-    x_[corner] = p.x(), y_[corner] = p.y(), z_[corner] = p.z();
-  }
-  Eigen::Vector3d place(std::int32_t corner) const { return {x_[corner], y_[corner], z_[corner]}; }
   double measure(const Eigen::Vector3d& normal, double offset);
+  bool listLost();
   void findCrossings();
   bool formRing();
   void replaceCorners(std::int32_t face);
   void makeRoom(std::size_t corners);
   void fillGaps(std::size_t used);
   void pad();
-  void findBounds();
+  void findBox();
 
   std::size_t count_ = 0;
   std::vector<Corner> corner_;
-  std::vector<double> x_, y_, z_;  ///< of the corners, padded with copies of the first [m]
-  std::vector<double> beyond_;     ///< normal . p - offset of each corner [m^2]
-  std::vector<std::int32_t> lost_;
+  std::vector<double> x_, y_, z_;   ///< of the corners, padded with copies of the first [m]
+  std::vector<double> beyond_;      ///< normal . p - offset of each corner [m^2]
+  std::vector<std::int32_t> lost_;  ///< corners beyond the plane, ascending
+  std::size_t lostCount_ = 0, crossings_ = 0;
   std::vector<Crossing> crossing_;
   std::vector<std::int32_t> crossingAt_;    ///< the crossing with each face on its left, if it has one
   std::int32_t lastFace_ = kCubeFaces - 1;  ///< largest number of a face it has had
-  std::vector<std::uint8_t> isLeft_;        ///< of each face, while they are listed
-  Eigen::Vector3d low_, high_;
-  double half_ = 0, farthest_ = 0;
+  std::vector<std::uint8_t> corners_;       ///< of each face, while they are listed: 1 any, 2 one within
+  Box box_;
+  bool boxIsOld_ = false;
+  double half_ = 0;
 };
 
 }  // namespace spume::foam

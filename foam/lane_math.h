@@ -41,6 +41,13 @@ inline Lanes squareRoot(const Lanes& x) {
   return root;
 }
 
+/// Bit k is set if lane k is.
+inline std::uint32_t bitsOf(const LaneMask& mask) {
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) bits |= static_cast<std::uint32_t>(mask[k] & (1 << k));
+  return bits;
+}
+
 inline double sumOf(const Lanes& x) {
   double sum = 0;
   for (std::size_t k = 0; k < kLanes; ++k) sum += x[k];

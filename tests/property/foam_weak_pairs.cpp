@@ -103,6 +103,15 @@ TEST(WeakPairs, LatticesAndCoincidentBubblesAreSafe) {
   EXPECT_EQ(weakPairsOf(balls, everyBubble(balls), 5), reference(balls, everyBubble(balls), 5));
 }
 
+/// The grid of sites is far too large for a table then.
+TEST(WeakPairs, ABubbleFarOffChangesNothing) {
+  Balls balls = raft(150, .4, .5, 5);
+  const PairList alone = weakPairsOf(balls, everyBubble(balls), 12);
+  balls.add({1e6, -2e6, 3e6}, 1);
+  EXPECT_FALSE(alone.empty());
+  EXPECT_EQ(weakPairsOf(balls, everyBubble(balls), 12), alone);
+}
+
 TEST(WeakPairs, ThreadsDoNotChangeTheList) {
   const Balls balls = raft(800, .4, .5, 17);
   const PairList alone = [&] {
