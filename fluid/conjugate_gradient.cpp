@@ -82,8 +82,8 @@ SolveReport ConjugateGradient::solve(Multigrid& multigrid, DenseField<double>& b
   SolveReport report;
   multigrid.border(pockets);
   report.residual = std::max(maxNorm(matrix.rows, b), pockets.largestResidual());
-  x.fill(0);
-  direction_.fill(0);
+  for (DenseField<double>* field : {&x, &direction_})  // their ghosts are never written
+    forEachRow(field->size(), [&](int i, int j) { std::fill_n(&(*field)(i, j, 0), field->size().z(), 0.0); });
   double previous = 0;
   while (report.residual > tolerance && report.iterations < maxIterations) {
     const double norm = report.residual;

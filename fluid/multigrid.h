@@ -8,7 +8,7 @@
 
 namespace spume::fluid {
 
-/// Preconditioner for the pressure: one symmetric V cycle in float. Levels are made by aggregating 2^3
+/// Preconditioner for the pressure: one symmetric W cycle in float. Levels are made by aggregating 2^3
 /// cells, interpolation is piecewise constant, and the coarse matrix is half the Galerkin product, which
 /// makes up for the over-stiff coarse space (model of [Braess 1995]): coarse weight = half the sum of its
 /// four fine ones, coarse excess = half the sum of its children's. Red-black Gauss-Seidel smooths, red first
@@ -31,7 +31,7 @@ class Multigrid {
   std::vector<float>& pocketRightHandSide() { return pocketRhs_; }  ///< empty: all 0
   const std::vector<float>& pocketSolution() const { return levels_.front().border.solution(); }
   /// solution() = M rightHandSide(), and so those of the pockets. With pockets it uses rightHandSide() up.
-  void cycle() { cycle(0, pocketRhs_); }
+  void cycle();
 
  private:
   struct Level {
@@ -40,7 +40,8 @@ class Multigrid {
     PocketBorder border;
     explicit Level(const Eigen::Vector3i& cells) : matrix(cells), x(cells), rhs(cells) {}
   };
-  void cycle(std::size_t depth, const std::vector<float>& pocketRhs);
+  void visit(std::size_t depth);
+  void finishCycle(std::size_t depth);
   static void aggregate(const PressureMatrix& fine, PressureMatrix& coarse);
   static void startSmooth(Level& level);
   static void smooth(Level& level, int colour);

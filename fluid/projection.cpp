@@ -51,9 +51,23 @@ void ProjectionSystem::updateFace(const Eigen::Vector3i& c, int axis, float& vel
   velocity = static_cast<float>(projected);
 }
 
+/// A run of faces in one body, given the pressures above and below them. On its own so that nothing it reads
+/// can alias what it writes.
+[[gnu::noinline]] void ProjectionSystem::updateRun(int axis, bool hydrostatic, const double* __restrict above,
+                                                   const double* __restrict below, int count,
+                                                   float* __restrict velocity,
+                                                   float* __restrict gradient) const {
+  const double fall = dt * params.gravity[axis], toGradient = params.density / dt;
+  const double pull = hydrostatic ? fall : 0;
+  for (int k = 0; k < count; ++k) {
+    const double push = above[k] - below[k];
+    velocity[k] = static_cast<float>(velocity[k] + (fall - pull - push));
+    gradient[k] = static_cast<float>(toGradient * (pull + push));
+  }
+}
+
 void ProjectionSystem::updateVelocity(int axis, DenseField<float>& velocity, DenseField<float>& gradient) {
   const auto step = component.stride(axis), stepBack = solution.stride(axis);
-  const double fall = dt * params.gravity[axis], toGradient = params.density / dt;
   const Eigen::Vector3i& size = velocity.size();
   forEachRow(size, [&](int i, int j) {
     const std::int32_t* wet = &component(i, j, 0);
@@ -62,17 +76,23 @@ void ProjectionSystem::updateVelocity(int axis, DenseField<float>& velocity, Den
     const double* q = &solution(i, j, 0);
     float *u = &velocity(i, j, 0), *g = &gradient(i, j, 0);
     std::uint8_t* set = &valid[axis](i, j, 0);
-    for (int k = 0; k < size.z(); ++k) {
-      g[k] = 0;
-      if ((wet[k] | wet[k - step]) >= 0 && open[k] > 0) {  // both sides wet: most faces
-        const double push = q[k] - q[k - stepBack], pull = components[wet[k]].hydrostatic ? fall : 0;
-        u[k] = static_cast<float>(u[k] + (fall - pull - push));
-        g[k] = static_cast<float>(toGradient * (pull + push));
-        set[k] = 1;
-      } else if (wet[k] >= 0 || wet[k - step] >= 0) {
-        updateFace({i, j, k}, axis, u[k], g[k]);
+    const auto isDry = [&](int k) { return (wet[k] & wet[k - step]) < 0; };  // on both sides
+    const auto isInside = [&](int k, std::int32_t body) {
+      return wet[k] == body && wet[k - step] >= 0 && open[k] > 0;
+    };
+    std::fill_n(g, size.z(), 0.0f);
+    for (int k = 0, end = 0; k < size.z(); k = end) {
+      while (end < size.z() && isDry(end)) ++end;
+      std::copy(given + k, given + end, set + k);
+      if (end > k) continue;
+      const std::int32_t body = wet[k];
+      while (body >= 0 && end < size.z() && isInside(end, body)) ++end;
+      if (end > k) {
+        updateRun(axis, components[body].hydrostatic, q + k, q + k - stepBack, end - k, u + k, g + k);
+        std::fill(set + k, set + end, std::uint8_t{1});
       } else {
-        set[k] = given[k];
+        updateFace({i, j, k}, axis, u[k], g[k]);
+        end = k + 1;
       }
     }
   });

@@ -150,6 +150,8 @@ struct ProjectionSystem {
   double centreAirless(DenseField<double>& field);
   double scaleOfRightHandSide() const;
   double projectedFace(const Eigen::Vector3i& c, int axis, double u) const;
+  void updateRun(int axis, bool hydrostatic, const double* above, const double* below, int count,
+                 float* velocity, float* gradient) const;
   void updateVelocity(int axis, DenseField<float>& velocity, DenseField<float>& gradient);
   void writePressure();
   double largestDivergence(const MacVelocity& velocity, const DenseField<float>& source);
