@@ -75,6 +75,40 @@ Stretch stretchOf(const std::vector<Cut>& cuts, const Cut& line, double discRadi
   return stretch;
 }
 
+/// Films stand square on the lines of centres: inside cell a two of them meet at 180 degrees less the angle
+/// of the triangle of centres at a.
+void addFilmAngles(const std::array<Vector3d, 3>& centre, std::vector<double>& angles) {
+  for (int a = 0; a < 3; ++a)
+    angles.push_back(180 - degreesBetween(centre[(a + 1) % 3] - centre[a], centre[(a + 2) % 3] - centre[a]));
+}
+
+/// The border of three cells runs square to their triangle, away from the fourth.
+void addBorderAngles(const std::array<Vector3d, 4>& centre, std::vector<double>& angles) {
+  std::array<Vector3d, 4> border;
+  for (int away = 0; away < 4; ++away) {
+    const Vector3d& a = centre[(away + 1) % 4];
+    const Vector3d square = (centre[(away + 2) % 4] - a).cross(centre[(away + 3) % 4] - a);
+    border[away] = square.dot(centre[away] - a) > 0 ? Vector3d(-square) : square;
+  }
+  for (int a = 0; a < 4; ++a)
+    for (int b = a + 1; b < 4; ++b) angles.push_back(degreesBetween(border[a], border[b]));
+}
+
+/// Four centres at Plateau's distances; false if there is no such tetrahedron. The first three always have
+/// their triangle.
+bool placeAtRest(const std::array<double, 4>& radius, std::array<Vector3d, 4>& centre) {
+  const auto length2 = [&](int a, int b) {
+    return radius[a] * radius[a] + radius[b] * radius[b] - radius[a] * radius[b];
+  };
+  const double base = std::sqrt(length2(0, 1));
+  const auto along = [&](int c) { return (length2(0, c) + base * base - length2(1, c)) / (2 * base); };
+  const double x = along(2), y = std::sqrt(length2(0, 2) - x * x);
+  const double u = along(3), v = ((length2(0, 3) + length2(0, 2) - length2(2, 3)) / 2 - u * x) / y;
+  const double w2 = length2(0, 3) - u * u - v * v;
+  centre = {Vector3d(0, 0, 0), Vector3d(base, 0, 0), Vector3d(x, y, 0), Vector3d(u, v, std::sqrt(w2))};
+  return w2 > 0;
+}
+
 /// Collects the angles of a foam, border by border.
 class Collector {
  public:
@@ -129,24 +163,14 @@ class Collector {
     return cuts;
   }
 
-  /// Films stand square on the lines of centres: inside cell a two of them meet at 180 degrees less the angle
-  /// of the triangle of centres at a.
   void addBorder(std::int32_t i, std::int32_t j, std::int32_t k) {
-    for (const auto& [a, b, c] : {std::array{i, j, k}, std::array{j, k, i}, std::array{k, i, j}})
-      angles.films.push_back(180 - degreesBetween(position_[b] - position_[a], position_[c] - position_[a]));
+    angles.bordersCells.push_back({i, j, k});
+    addFilmAngles({position_[i], position_[j], position_[k]}, angles.films);
   }
-
-  /// The border of three cells runs square to their triangle, away from the fourth.
   void addPoint(const std::array<std::int32_t, 4>& cells) {
-    std::array<Vector3d, 4> border;
-    for (int away = 0; away < 4; ++away) {
-      const Vector3d& a = position_[cells[(away + 1) % 4]];
-      const Vector3d square =
-          (position_[cells[(away + 2) % 4]] - a).cross(position_[cells[(away + 3) % 4]] - a);
-      border[away] = square.dot(position_[cells[away]] - a) > 0 ? Vector3d(-square) : square;
-    }
-    for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b) angles.borders.push_back(degreesBetween(border[a], border[b]));
+    angles.pointsCells.push_back(cells);
+    addBorderAngles({position_[cells[0]], position_[cells[1]], position_[cells[2]], position_[cells[3]]},
+                    angles.borders);
   }
 
   const std::vector<Vector3d>& position_;
@@ -165,6 +189,23 @@ PlateauAngles plateauAngles(const std::vector<Vector3d>& position, const std::ve
   Collector collector(position, radius, topology, wanted);
   for (const foam::Film& film : topology.films) collector.add(film);
   return std::move(collector.angles);
+}
+
+PlateauAngles anglesAtRest(const std::vector<double>& radius, const PlateauAngles& measured) {
+  PlateauAngles rest;
+  std::array<Vector3d, 4> centre;
+  for (const auto& cells : measured.bordersCells) {
+    placeAtRest({radius[cells[0]], radius[cells[1]], radius[cells[2]], radius[cells[0]]}, centre);
+    rest.bordersCells.push_back(cells);
+    addFilmAngles({centre[0], centre[1], centre[2]}, rest.films);
+  }
+  for (const auto& cells : measured.pointsCells) {
+    if (!placeAtRest({radius[cells[0]], radius[cells[1]], radius[cells[2]], radius[cells[3]]}, centre))
+      continue;
+    rest.pointsCells.push_back(cells);
+    addBorderAngles(centre, rest.borders);
+  }
+  return rest;
 }
 
 std::vector<int> bordersOfFilms(const std::vector<Vector3d>& position, const std::vector<double>& radius,

@@ -70,6 +70,13 @@ void addAngles(const SceneRun& run, std::vector<ResultRow>& rows) {
   borders.reference = "random power diagram 36 deg";
   borders.note = std::to_string(angles.borders.size() / 6) + " points";
   rows.push_back(aimAtMost(borders, angles.borderSpread(), kWellUnderHalf * kRandomBorders, "deg"));
+  const PlateauAngles rest = anglesAtRest(run.bubbles().radius, angles);
+  ResultRow restFilms = rowOf(run, "films' angles of the same bubbles, every pair at Plateau's distance");
+  restFilms.note = "plane films of unequal bubbles spread so much at rest";
+  rows.push_back(reportOnly(restFilms, rest.filmSpread(), "deg"));
+  ResultRow restBorders = rowOf(run, "borders' angles of the same bubbles, every pair at Plateau's distance");
+  restBorders.note = std::to_string(rest.pointsCells.size()) + " points";
+  rows.push_back(reportOnly(restBorders, rest.borderSpread(), "deg"));
 }
 
 /// Fig. 8: bubbles blown into soapy water pile up.

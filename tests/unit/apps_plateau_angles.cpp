@@ -50,6 +50,22 @@ TEST(PlateauAngles, OfEqualCellsOnACentredCubicLatticeAreThoseOfTheTruncatedOcta
   EXPECT_NEAR(angles.borderSpread(), borders, kTieBreak);
 }
 
+TEST(PlateauAngles, AtRestAreThoseOfTheTetrahedronForEqualBubblesAndOfPlateausTriangleForUnequal) {
+  PlateauAngles measured;
+  measured.bordersCells = {{0, 1, 2}, {0, 1, 4}};
+  measured.pointsCells = {{0, 1, 2, 3}};
+  const PlateauAngles rest = anglesAtRest({2, 2, 2, 2, 3}, measured);
+  constexpr double kRoundOff = 1e-10;
+  // Sides of 2, 2 and sqrt(7): the larger bubble's corner is the sharper one.
+  const double sharp = 2 * std::asin(1 / std::sqrt(7.0)) * 180 / M_PI;
+  const std::vector<double> films = {120,        120, 120, 180 - (90 - sharp / 2), 180 - (90 - sharp / 2),
+                                     180 - sharp};
+  ASSERT_EQ(rest.films.size(), films.size());
+  for (std::size_t n = 0; n < films.size(); ++n) EXPECT_NEAR(rest.films[n], films[n], kRoundOff) << n;
+  ASSERT_EQ(rest.borders.size(), 6u);
+  EXPECT_NEAR(rest.borderSpread(), 0, kRoundOff);
+}
+
 TEST(PlateauAngles, OfRandomPointsSpreadAsARandomDiagramDoes) {
   constexpr int kPoints = 1500;
   constexpr double kFilms = 24, kBorders = 36;  // published spreads of a random power diagram [degrees]
