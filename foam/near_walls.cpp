@@ -1,5 +1,7 @@
 #include "foam/near_walls.h"
 
+#include <algorithm>
+
 #include "foam/errors.h"
 
 namespace spume::foam {
@@ -15,29 +17,37 @@ bool isNew(const NearWalls& known, const Eigen::Vector3d& away) {
   return away.norm() > kClearSlope;
 }
 
+/// How far from the walls it knows a bubble looks for the next: by its radius, or by all it may move.
+enum class Look { near, far };
+
 /// Bubbles that may touch a further wall, and the points from which they look for it.
 struct Feelers {
   std::vector<std::size_t> owner;
   Eigen::Matrix3Xd offset, point;
 
   Feelers(const BubbleStore& bubbles, const std::vector<double>& reach, const std::vector<NearWalls>& walls,
-          int round) {
+          int known, Look look) {
     for (std::size_t i = 0; i < walls.size(); ++i)
-      if (walls[i].count == round && walls[i].wall[0].psi < reach[i]) owner.push_back(i);
+      if (walls[i].count == known && walls[i].wall[0].psi < reach[i]) owner.push_back(i);
     offset.setZero(3, static_cast<Eigen::Index>(owner.size()));
     point.resize(3, offset.cols());
     for (Eigen::Index f = 0; f < offset.cols(); ++f) {
-      const NearWalls& known = walls[owner[f]];
-      for (int k = 0; k < known.count; ++k) offset.col(f) += bubbles.radius[owner[f]] * known.wall[k].away;
-      point.col(f) = bubbles.position[owner[f]] + offset.col(f);
+      const std::size_t i = owner[f];
+      for (int k = 0; k < known; ++k) {
+        const NearWall& wall = walls[i].wall[k];
+        const double room = look == Look::far ? reach[i] - wall.psi : 0;
+        offset.col(f) += std::max(bubbles.radius[i], room) * wall.away;
+      }
+      point.col(f) = bubbles.position[i] + offset.col(f);
     }
   }
 };
 
-/// One round: every bubble with `round` known walls looks for the next.
+/// One round: every bubble with `count` known walls looks for the next. What is seen from afar counts only if
+/// a flat wall there could be: the feeler is in free space, and the wall is not nearer than the nearest.
 void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::vector<double>& reach,
-          int round, std::vector<NearWalls>& walls) {
-  const Feelers feelers(bubbles, reach, walls, round);
+          int count, Look look, std::vector<NearWalls>& walls) {
+  const Feelers feelers(bubbles, reach, walls, count, look);
   const Eigen::Index n = feelers.point.cols();
   if (n == 0) return;
   Eigen::VectorXd psi(n);
@@ -50,6 +60,7 @@ void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::ve
   for (Eigen::Index f = 0; f < n; ++f) {
     NearWalls& known = walls[feelers.owner[f]];
     const double here = psi[f] - away.col(f).dot(feelers.offset.col(f));
+    if (look == Look::far && (psi[f] <= 0 || here < known.wall[0].psi)) continue;
     if (here < reach[feelers.owner[f]] && isNew(known, away.col(f)))
       known.wall[known.count++] = {here, away.col(f), velocity.col(f), solid[f]};
   }
@@ -65,8 +76,8 @@ void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, cons
     if (away.norm() == 0) continue;
     walls[i].wall[walls[i].count++] = {around.psi[i], away, around.solidVelocity.col(i), around.solid[i]};
   }
-  feel(liquid, bubbles, reach, 1, walls);
-  feel(liquid, bubbles, reach, 2, walls);
+  for (const Look look : {Look::near, Look::far})
+    for (const int count : {1, 2}) feel(liquid, bubbles, reach, count, look, walls);
 }
 
 }  // namespace spume::foam

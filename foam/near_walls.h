@@ -28,8 +28,9 @@ struct NearWalls {
 
 /// Finds the walls within `reach` [m] of each bubble's centre; the nearest one counts always. The signed
 /// distance knows the nearest only, and a bubble in a corner would be thrown from one wall to the other; so
-/// those near a wall look again from one radius further inside, where the next wall is the nearest. Walls are
-/// taken flat in between.
+/// those near a wall look again from one radius further inside, where the next wall is the nearest, and from
+/// as far inside as they may move: a bubble just above a floor would not see the wall that the next step
+/// carries it through. Walls are taken flat in between.
 void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
                    const std::vector<double>& reach, std::vector<NearWalls>& walls);
 
