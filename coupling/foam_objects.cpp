@@ -16,7 +16,15 @@ constexpr std::uint64_t kProbePurpose = 0x736f757263650001;
 constexpr int kRoomProbes = 2000;  // points that look for room in a source: finds a share of 0.3 % for sure
 
 std::string text(const Eigen::Vector3d& v) {
-  return "[" + exactText(v.x()) + ", " + exactText(v.y()) + ", " + exactText(v.z()) + "]";
+  std::string all;
+  for (int axis = 0; axis < 3; ++axis) all.append(axis == 0 ? "[" : ", ").append(exactText(v[axis]));
+  return all.append("]");
+}
+
+/// To the micrometre.
+std::string rounded(const Eigen::Vector3d& v) {
+  constexpr double kPerMetre = 1e6;
+  return text((v * kPerMetre).array().round().matrix() / kPerMetre);
 }
 
 /// The box of the domain, as the grid rounds it.
@@ -33,18 +41,16 @@ struct Box {
 /// Calls visit(bubble, place) for every bubble of the scene; `place` says where it stands, for messages.
 template <typename Visit>
 void forEachBubble(const Scene& scene, const Visit& visit) {
-  for (std::size_t item = 0; item < scene.bubbles.size(); ++item) {
-    const BubblesSpec& spec = scene.bubbles[item];
-    if (spec.file.empty()) {
-      visit(spec.bubble, [&] { return "bubbles " + std::to_string(item); });
-      continue;
-    }
-    const BubbleTable table = readBubbleTable(spec.file);
-    for (std::size_t row = 0; row < table.size(); ++row)
-      visit(foam::NewBubble{table.position[row], table.velocity[row], table.radius[row],
-                            foam::BubbleClass::liquid, spec.bubble.wetness},
-            [&] { return table.placeOf(spec.file, row); });
-  }
+  for (std::size_t item = 0; item < scene.bubbles.size(); ++item)
+    checkItem("bubbles", item, [&] {
+      const BubblesSpec& spec = scene.bubbles[item];
+      if (spec.file.empty()) return visit(spec.bubble, [&] { return "bubbles " + std::to_string(item); });
+      const BubbleTable table = readBubbleTable(spec.file);
+      for (std::size_t row = 0; row < table.size(); ++row)
+        visit(foam::NewBubble{table.position[row], table.velocity[row], table.radius[row],
+                              foam::BubbleClass::liquid, spec.bubble.wetness},
+              [&] { return table.placeOf(spec.file, row); });
+    });
 }
 
 void checkBubbles(const Scene& scene, const Box& domain, const SignedDistance& psi) {
@@ -82,6 +88,22 @@ bool hasRoom(const ShapeSpec& shape, const Box& domain, const SignedDistance& ps
   return false;
 }
 
+/// A gap may be narrower than a bubble, which it squeezes; a domain none of whose edges it fits into is a
+/// slip of the unit.
+void checkSource(const BubbleSourceSpec& source, const Box& domain, const SignedDistance& psi,
+                 const std::string& object) {
+  checkRegion(source.shape, domain, object);
+  const double longest = (domain.upper - domain.lower).maxCoeff(), most = source.radius.most;
+  if (2 * most > longest)
+    throw SceneError(object + ": max_radius = " + exactText(most) +
+                     " m: such a bubble is larger than the domain; at most " + exactText(longest / 2) + " m");
+  if (!hasRoom(source.shape, domain, psi)) {
+    const auto [lower, upper] = bounds(source.shape);
+    throw SceneError(object + ": all of it is inside a solid, around " + rounded((lower + upper) / 2) +
+                     " m; move the source or the solid");
+  }
+}
+
 }  // namespace
 
 foam::BubbleStore initialBubbles(const Scene& scene) {
@@ -117,15 +139,16 @@ void checkFoamObjects(const Scene& scene) {
   const Box domain(scene);
   const SignedDistance psi = solidDistance(scene);
   checkBubbles(scene, domain, psi);
-  for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i) {
-    const BubbleSourceSpec& source = scene.bubbleSources[i];
-    const std::string object = objectLabel("bubble_source", source.name, i);
-    checkRegion(source.shape, domain, object);
-    if (!hasRoom(source.shape, domain, psi))
-      throw SceneError(object + ": is inside a solid; move the source or the solid");
-  }
+  for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i)
+    checkItem("bubble_source", i, [&] {
+      checkSource(scene.bubbleSources[i], domain, psi,
+                  objectLabel("bubble_source", scene.bubbleSources[i].name, i));
+    });
   for (std::size_t i = 0; i < scene.bubbleKills.size(); ++i)
-    checkRegion(scene.bubbleKills[i].shape, domain, objectLabel("bubble_kill", scene.bubbleKills[i].name, i));
+    checkItem("bubble_kill", i, [&] {
+      checkRegion(scene.bubbleKills[i].shape, domain,
+                  objectLabel("bubble_kill", scene.bubbleKills[i].name, i));
+    });
 }
 
 }  // namespace spume::coupling

@@ -24,7 +24,8 @@ inline constexpr char kWallsOfDomain[] = "walls";
 
 /// Throws SceneError naming the first object about bubbles that cannot be simulated, of a file with its line,
 /// and the remedy: a bubble outside the domain, inside a solid or larger than the domain; a source or a
-/// region without a proper shape or outside the domain; a source with no room outside the solids.
+/// region without a proper shape or outside the domain; a source with no room outside the
+/// solids or of bubbles that no edge of the domain can hold.
 void checkFoamObjects(const Scene& scene);
 
 }  // namespace spume::coupling

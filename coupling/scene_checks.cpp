@@ -137,8 +137,10 @@ void checkObjects(const Scene& scene) {
   const auto checkEach = [&](const std::string& table, const auto& objects, const auto& check) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
       const std::string object = objectLabel(table, objects[i].name, i);
-      checkName(objects[i].name, object, names);
-      check(scene, objects[i], object);
+      checkItem(table, i, [&] {
+        checkName(objects[i].name, object, names);
+        check(scene, objects[i], object);
+      });
     }
   };
   checkEach("solid", scene.solids, checkSolid);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "coupling/nearest_key.h"
+#include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
 #include "coupling/scene_document.h"
 #include "coupling/scene_keys.h"
@@ -149,6 +150,8 @@ void checkTogether(const Scene& scene, const SceneDocument& document, const std:
     throw SceneError(document.place(conflict->key) + ": " + conflict->key + " " + conflict->message);
   try {
     checkObjects(scene);
+  } catch (const ObjectError& error) {
+    throw SceneError(document.place(error.key()) + ": " + error.what());
   } catch (const SceneError& error) {
     throw SceneError(path + ": " + error.what());
   }

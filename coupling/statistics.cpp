@@ -129,7 +129,7 @@ void StatisticsWriter::add(const StepReport& report) {
     if (found != stages_.end()) seconds[found - stages_.begin()] += spent;
   });
   std::string row = rowOf(columnsOfSteps(), report);
-  for (const double spent : seconds) row += "," + exactText(spent);
+  for (const double spent : seconds) row += ',', row += exactText(spent);
   writeRow(steps_, row);
   for (const Event& event : report.events) writeRow(events_, rowOf(columnsOfEvents(), {report.step, event}));
   if (!report.probes.empty()) writeRow(probes_, probeRow(report));

@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -72,9 +73,13 @@ ResultTable readTable(const Reproduction& reproduction, const std::string& folde
   return table;
 }
 
-/// Runs the wanted cases of a table; what an earlier call wrote of the others is kept.
+/// Runs the wanted cases of a table; what an earlier call wrote of the others is kept. A table of which none
+/// is wanted is left alone.
 void make(const Selection& selection, const ReproduceOptions& options) {
   const Reproduction& reproduction = *selection.table;
+  if (std::none_of(reproduction.studies.begin(), reproduction.studies.end(),
+                   [&](const Study& study) { return selection.wants(study, options.maxCost); }))
+    return;
   const std::string stem = options.output + "/" + reproduction.name;
   coupling::createFolder(options.output);
   ResultTable table = readTable(reproduction, options.output);

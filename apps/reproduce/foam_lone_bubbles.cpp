@@ -98,7 +98,7 @@ std::vector<double> lives(const foam::FoamParams& params, std::size_t count, dou
 
 /// T1: lives beside the Rayleigh distribution, by Kolmogorov and Smirnov.
 std::vector<ResultRow> lifetimes(const StudyContext&) {
-  constexpr std::size_t kCount = 20000;
+  constexpr std::size_t kCount = 100000;
   const double critical = 1.63 / std::sqrt(static_cast<double>(kCount));  // at p = 0.01
   foam::FoamParams params;
   params.burstMedianLife = 1;
@@ -189,7 +189,7 @@ std::vector<ResultRow> steadyHead(const StudyContext&) {
 
 std::vector<Study> loneBubbleStudies() {
   return {{"B1", "terminal speed", 5, terminalSpeeds},
-          {"T1", "lifetimes", 20, lifetimes},
+          {"T1", "lifetimes", 60, lifetimes},
           {"K5", "a head of steady height", 5, steadyHead},
           {"T3", "volume correction as a rate", 1, volumeRate}};
 }

@@ -8,6 +8,7 @@
 #include "apps/reproduce/foam_studies.h"
 #include "apps/reproduce/plateau_angles.h"
 #include "apps/reproduce/power_law.h"
+#include "apps/reproduce/shear_modulus.h"
 #include "apps/reproduce/soft_packing.h"
 #include "foam/power_cells.h"
 #include "foam/power_diagram.h"
@@ -185,7 +186,7 @@ struct Jamming {
   double loose = 0;   ///< contacts per ball nearest to it, mean
   double faces = 0;   ///< of the Voronoi cells there, mean
   PowerLaw contacts;  ///< of the contacts beyond the isostatic number, over the density beyond jamming
-  PowerLaw pressure;
+  PowerLaw pressure, shear;
   bool settled = true;
 
   /// `packings` of them, quenched from random places at `fraction` and let expand.
@@ -201,6 +202,7 @@ struct Jamming {
   struct State {
     double fraction;
     SoftPacking::Census census;
+    double shearModulus;
   };
 
   void expand(const SoftPackingParams& params, int packings) {
@@ -212,7 +214,9 @@ struct Jamming {
     do {
       if (!states.empty()) packing.setFraction(jams + kShrink * (states.back().fraction - jams));
       settled = packing.relax() && settled;
-      states.push_back({packing.fraction(), packing.census()});
+      const double modulus = shearModulus(packing.heldContacts(), packing.position().size(),
+                                          params.dimensions, std::pow(packing.edge(), params.dimensions));
+      states.push_back({packing.fraction(), packing.census(), modulus});
       if (states.size() < 2) continue;
       const State &before = states[states.size() - 2], &now = states.back();
       jams = now.fraction - now.census.pressure * (before.fraction - now.fraction) /
@@ -228,6 +232,7 @@ struct Jamming {
                    isostatic = 2 * params.dimensions * (1 - 1 / held);
       contacts.add(state.fraction - jams, state.census.contacts - isostatic);
       pressure.add(state.fraction - jams, state.census.pressure);
+      shear.add(state.fraction - jams, state.shearModulus);
     }
   }
 };
@@ -251,12 +256,15 @@ std::vector<ResultRow> jamming(const StudyContext&) {
             exponent = row(true, "exponent of Z - Zc over the fraction beyond it", "0.50", kOHern),
             factor = row(true, "Z0 of Z - Zc = Z0 dphi^0.5", "7.7", kOHern),
             pressure = row(true, "exponent of the pressure", "1", kOHern),
+            shear = row(true, "exponent of the shear modulus", "0.5", kOHern),
             faces = row(true, "faces of the Voronoi cells", "14.1-14.3", "random close packing"),
             flat = row(false, "area fraction at which they jam", "0.842", kOHern),
             flatLoose = row(false, "contacts per disc within 1e-4 of it, rattlers left out", "3.98", kOHern),
             flatExponent = row(false, "exponent of Z - Zc", "0.49", kOHern),
+            flatShear = row(false, "exponent of the shear modulus", "0.5", kOHern),
             flatFactor = row(false, "Z0 of Z - Zc = Z0 dphi^0.5", "3.6", kOHern);
   pressure.title = "pressure of the same (G12)";
+  shear.title = flatShear.title = "shear modulus of the same (G12)";
   faces.title = "Voronoi cells of the same (G9)";
   if (!balls.settled || !discs.settled) density.note = "not every packing came to rest";
   return {aimWithin(density, balls.density, 0.635, 0.645, "-"),
@@ -266,17 +274,19 @@ std::vector<ResultRow> jamming(const StudyContext&) {
           aimWithin(exponent, balls.contacts.exponent(), 0.45, 0.55, "-"),
           aimWithin(factor, balls.contacts.factorOf(0.5), 7, 8.5, "-"),
           aimWithin(pressure, balls.pressure.exponent(), 0.9, 1.1, "-"),
+          aimWithin(shear, balls.shear.exponent(), 0.4, 0.6, "-"),
           aimWithin(faces, balls.faces, 14.1, 14.3, "-"),
           reportOnly(flat, discs.density, "-"),
           reportOnly(flatLoose, discs.loose, "-"),
           reportOnly(flatExponent, discs.contacts.exponent(), "-"),
-          reportOnly(flatFactor, discs.contacts.factorOf(0.5), "-")};
+          reportOnly(flatFactor, discs.contacts.factorOf(0.5), "-"),
+          aimWithin(flatShear, discs.shear.exponent(), 0.4, 0.6, "-")};
 }
 
 }  // namespace
 
 std::vector<Study> packingStudies() {
-  return {{"G7", "a random dry foam", 300, randomFoam},
+  return {{"G7", "a random dry foam", 700, randomFoam},
           {"G8", "Voronoi cells of random points", 10, randomPoints},
           {"G11", "contacts at the jamming transition", 150, jamming}};
 }

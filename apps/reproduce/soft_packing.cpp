@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStiffness = 1;
 /// How far balls may go before their images are placed anew.
 constexpr double kRoam = 0.3;
 
@@ -21,7 +20,7 @@ constexpr double kRoam = 0.3;
 constexpr double kFirstStep = 0.05, kLongestStep = 0.3, kGrow = 1.1, kShrink = 0.5, kMix = 0.1,
                  kMixShrink = 0.99;
 constexpr int kPatience = 5, kMaxSteps = 100000;
-constexpr double kAtRest = 1e-5;   ///< largest net force over the mean push of the contacts
+constexpr double kAtRest = 1e-5;  ///< largest net force over the mean push of the contacts
 /// Mean push below which balls do not touch: a fraction of 1e-6 from where they begin to.
 constexpr double kNothing = 1e-6;
 
@@ -98,7 +97,7 @@ void SoftPacking::findForces() {
       if (distance == 0 || distance >= radius_[i] + radius_[j]) continue;
       const foam::PairSpring spring = foam::strongSpring(kStiffness, radius_[i], radius_[j], 1, distance, 0);
       force_[i] -= spring.tension / distance * apart;
-      if (i < ball_[j]) contacts_.push_back({i, ball_[j], -spring.tension, distance});
+      if (i < ball_[j]) contacts_.push_back({i, ball_[j], -spring.tension, distance, -apart / distance});
     }
   }
 }
@@ -135,28 +134,40 @@ bool SoftPacking::relax() {
   return false;
 }
 
-SoftPacking::Census SoftPacking::census() const {
-  std::vector<int> touched(position_.size(), 0);
+/// Flags balls with fewer contacts than dimensions + 1, those with such balls left out.
+std::vector<std::uint8_t> SoftPacking::rattlers() const {
   std::vector<std::uint8_t> rattles(position_.size(), 0);
+  std::vector<int> touched(position_.size());
+  for (bool more = true; more;) {
+    more = false;
+    std::fill(touched.begin(), touched.end(), 0);
+    for (const Contact& c : contacts_)
+      if (!rattles[c.i] && !rattles[c.j]) ++touched[c.i], ++touched[c.j];
+    for (std::size_t i = 0; i < position_.size(); ++i) {
+      const bool loose = touched[i] <= params_.dimensions;
+      more = more || (loose && !rattles[i]);
+      rattles[i] = loose;
+    }
+  }
+  return rattles;
+}
+
+std::vector<SoftPacking::Contact> SoftPacking::heldContacts() const {
+  const std::vector<std::uint8_t> rattles = rattlers();
+  std::vector<Contact> held;
+  for (const Contact& c : contacts_)
+    if (!rattles[c.i] && !rattles[c.j]) held.push_back(c);
+  return held;
+}
+
+SoftPacking::Census SoftPacking::census() const {
   Census census;
   for (const Contact& c : contacts_)
     census.pressure += c.push * c.distance / (params_.dimensions * std::pow(edge_, params_.dimensions));
-  std::size_t left = position_.size() + 1, held = position_.size();
-  std::size_t between = 0;
-  while (held < left) {
-    left = held;
-    std::fill(touched.begin(), touched.end(), 0);
-    between = 0;
-    for (const Contact& c : contacts_)
-      if (!rattles[c.i] && !rattles[c.j]) ++touched[c.i], ++touched[c.j], ++between;
-    held = 0;
-    for (std::size_t i = 0; i < position_.size(); ++i) {
-      rattles[i] = touched[i] <= params_.dimensions;
-      held += !rattles[i];
-    }
-  }
-  census.held = static_cast<double>(held) / static_cast<double>(position_.size());
-  census.contacts = held ? 2 * static_cast<double>(between) / static_cast<double>(held) : 0;
+  const std::vector<std::uint8_t> rattles = rattlers();
+  const auto held = static_cast<double>(std::count(rattles.begin(), rattles.end(), 0));
+  census.held = held / static_cast<double>(position_.size());
+  census.contacts = held > 0 ? 2 * static_cast<double>(heldContacts().size()) / held : 0;
   return census;
 }
 

@@ -22,6 +22,14 @@ struct SoftPackingParams {
 /// transition [OHern 2003]. The smaller balls have radius 1, the springs stiffness 1.
 class SoftPacking {
  public:
+  static constexpr double kStiffness = 1;
+
+  struct Contact {
+    std::int32_t i, j;
+    double push, distance;
+    Eigen::Vector3d normal;  ///< from i to j
+  };
+
   explicit SoftPacking(const SoftPackingParams& params);
 
   /// Share of the box that the balls fill.
@@ -40,17 +48,15 @@ class SoftPacking {
     double pressure = 0;  ///< mean of push x distance over the box [stiffness / radius^(dimensions - 2)]
   };
   Census census() const;
+  /// The contacts between balls that are held.
+  std::vector<Contact> heldContacts() const;
 
   /// Places in [0, edge) and the edge of the box.
   const std::vector<Eigen::Vector3d>& position() const { return position_; }
   double edge() const { return edge_; }
 
  private:
-  struct Contact {
-    std::int32_t i, j;
-    double push, distance;
-  };
-
+  std::vector<std::uint8_t> rattlers() const;
   void placeImages();
   void addImagesAlong(int axis);
   bool imagesSuffice() const;

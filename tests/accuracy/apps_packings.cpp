@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/reproduce/power_law.h"
+#include "apps/reproduce/shear_modulus.h"
 #include "apps/reproduce/soft_packing.h"
 
 namespace spume::apps {
@@ -49,6 +50,46 @@ TEST(SoftPacking, KeepsItsFraction) {
   packing.setFraction(0.7);
   EXPECT_NEAR(packing.fraction(), 0.7, 1e-12);
 }
+
+/// A crystal of springs of length 1 and stiffness 1 between nearest neighbours.
+struct Crystal {
+  std::vector<SoftPacking::Contact> contacts;
+  std::vector<Eigen::Vector3d> place;
+  double volume;
+
+  /// `cell`: the edges of a box, repeated 3 times along each; `basis`: balls in it.
+  Crystal(const Eigen::Vector3d& cell, const std::vector<Eigen::Vector3d>& basis) : volume(27 * cell.prod()) {
+    for (int n = 0; n < 27; ++n)
+      for (const auto& x : basis)
+        place.push_back(x + cell.cwiseProduct(Eigen::Vector3d(n % 3, n / 3 % 3, n / 9)));
+    for (int j = 0; j < static_cast<int>(place.size()); ++j)
+      for (int i = 0; i < j; ++i) connect(i, j, 3 * cell);
+  }
+  void connect(int i, int j, const Eigen::Vector3d& box) {
+    Eigen::Vector3d apart = place[j] - place[i];
+    for (int axis = 0; axis < 3; ++axis) apart[axis] -= box[axis] * std::round(apart[axis] / box[axis]);
+    if (std::abs(apart.norm() - 1) < 1e-9) contacts.push_back({i, j, 0, 1, apart});
+  }
+  double shearModulus() const { return apps::shearModulus(contacts, place.size(), 3, volume); }
+};
+
+TEST(ShearModulus, OfCubicCrystalsIsC44OfNearestNeighbours) {
+  const double a = std::sqrt(2.0);
+  const Crystal fcc({a, a, a}, {{0, 0, 0}, {0, a / 2, a / 2}, {a / 2, 0, a / 2}, {a / 2, a / 2, 0}});
+  EXPECT_NEAR(fcc.shearModulus(), 1 / std::sqrt(2.0), 1e-12);  // k/(sqrt(2) d)
+}
+
+/// Its balls answer a shear by moving against each other: C66 : C44 is 9 : 8 [Born and Huang 1954], where
+/// the bulk modulus, that of the cubic crystal, is 16 in the same units.
+TEST(ShearModulus, OfTheHexagonalCrystalHasItsBallsMove) {
+  const double width = std::sqrt(3.0), height = std::sqrt(8.0 / 3), unit = std::sqrt(2.0) / 24;
+  const Crystal hcp(
+      {1, width, height},
+      {{0, 0, 0}, {.5, width / 2, 0}, {.5, width / 6, height / 2}, {0, width * 2 / 3, height / 2}});
+  EXPECT_NEAR(hcp.shearModulus(), (9 + 8 + 8) / 3.0 * unit, 1e-12);
+}
+
+TEST(ShearModulus, VanishesWhereNothingTouches) { EXPECT_EQ(apps::shearModulus({}, 5, 3, 1), 0); }
 
 TEST(PowerLaw, IsFoundExactly) {
   PowerLaw law;

@@ -1,12 +1,14 @@
-/// Milliseconds and iterations of the linear solvers on one system of a step, from rest, to a relative
-/// residual of 1e-6: dense foams of 100 to 100000 bubbles, steps of 1 to 20 ms, springs of 0.3 to 8 N/m.
-/// Prints a table.
+/// The linear solvers on one system of a step, from rest, to a relative residual of 1e-6: iterations and
+/// milliseconds of processor time, all threads together (the clock on the wall says little on a shared
+/// machine), for dense foams of 100 to 100000 bubbles, steps of 1 to 20 ms, springs of 0.3 to 8 N/m. Then
+/// what the tolerance buys. Prints tables in Markdown.
 ///
 /// usage: bench_foam_solvers [most bubbles, default 16000] [most bubbles for cholmod, 1000]
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "tests/support/floating_foam.h"
 
@@ -20,20 +22,23 @@ struct Timed {
   SolveReport report;
 };
 
-Timed timeSolve(LinearSolver kind, const BlockSystem& a, const Vectors3& b) {
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+Timed timeSolve(LinearSolver kind, const BlockSystem& a, const Vectors3& b, double tolerance, Vectors3& x) {
   ImplicitSolve solver(kind);
   Timed timed{1e300, {}};
   for (int repeat = 0; repeat < 2; ++repeat) {  // the first one makes room
-    Vectors3 x(a.size(), Eigen::Vector3d::Zero());
-    const double goal = kTolerance * solver.residual(a, b, x);
-    const auto start = std::chrono::steady_clock::now();
+    x.assign(a.size(), Eigen::Vector3d::Zero());
+    const double goal = tolerance * solver.residual(a, b, x);
+    const double start = processorSeconds();
     timed.report = solver.solve(a, b, goal, 100000, x);
-    timed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    timed.seconds = processorSeconds() - start;
   }
   return timed;
 }
 
-void printRow(const FloatingFoam& foam, const StillPool& pool, double k, double dt, bool direct) {
+/// The system of a step of `dt` [s] with springs of `k` [N/m].
+Integrator systemOf(const FloatingFoam& foam, const StillPool& pool, double k, double dt) {
   FoamParams params = foam.params;
   params.springFromSurfaceTension = false, params.springStiffness = k, params.springFloor = 0;
   params.solverIterations = 100000;
@@ -42,19 +47,53 @@ void printRow(const FloatingFoam& foam, const StillPool& pool, double k, double 
   PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
   Integrator integrator(params);
   coupleOnce(integrator, pool, dt, topology, bubbles);
-  std::printf("%7zu %5g %5g", bubbles.size(), 1e3 * dt, k);
+  return integrator;
+}
+
+void printRow(const FloatingFoam& foam, const StillPool& pool, double k, double dt, bool direct) {
+  const Integrator integrator = systemOf(foam, pool, k, dt);
+  std::printf("| %zu | %g | %g |", foam.bubbles.size(), 1e3 * dt, k);
+  Vectors3 x;
   for (const auto kind :
        {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky, LinearSolver::cholmod}) {
-    if (kind == LinearSolver::cholmod && !direct) continue;
-    const Timed timed = timeSolve(kind, integrator.system(), integrator.impulses());
-    std::printf("   %5d %9.2f", timed.report.iterations, 1e3 * timed.seconds);
+    if (kind == LinearSolver::cholmod && !direct) {
+      std::printf(" - |");
+      continue;
+    }
+    const Timed timed = timeSolve(kind, integrator.system(), integrator.impulses(), kTolerance, x);
+    if (kind != LinearSolver::cholmod) std::printf(" %d |", timed.report.iterations);
+    std::printf(" %.3g |", 1e3 * timed.seconds);
   }
   std::printf("\n");
   std::fflush(stdout);
 }
 
+/// How far velocities are off those of a solution to round-off, over the largest of them.
+void printTolerances(int count) {
+  constexpr double kExact = 1e-12, kStiffness = 2, kStep = 5e-3;
+  const FloatingFoam foam(count, 0.4);
+  const Integrator integrator = systemOf(foam, StillPool(foam.box), kStiffness, kStep);
+  Vectors3 exact, x;
+  timeSolve(LinearSolver::pcgIncompleteCholesky, integrator.system(), integrator.impulses(), kExact, exact);
+  double largest = 0;
+  for (const auto& v : exact) largest = std::max(largest, v.norm());
+  std::printf("\n| tolerance, %d bubbles | pcg_ic iterations | ms | worst error | median error |\n", count);
+  std::printf("|---|---|---|---|---|\n");
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
+    const Timed timed = timeSolve(LinearSolver::pcgIncompleteCholesky, integrator.system(),
+                                  integrator.impulses(), tolerance, x);
+    std::vector<double> error;
+    for (std::size_t i = 0; i < x.size(); ++i) error.push_back((x[i] - exact[i]).norm() / largest);
+    std::sort(error.begin(), error.end());
+    std::printf("| %g | %d | %.3g | %.2g | %.2g |\n", tolerance, timed.report.iterations, 1e3 * timed.seconds,
+                error.back(), error[error.size() / 2]);
+  }
+}
+
 int run(int most, int mostDirect) {
-  std::printf("bubbles dt ms k N/m    pcg_jacobi: its, ms   pcg_ic: its, ms   cholmod: its, ms\n");
+  std::printf(
+      "| bubbles | dt ms | k N/m | pcg_jacobi iterations | ms | pcg_ic iterations | ms | cholmod ms |\n"
+      "|---|---|---|---|---|---|---|---|\n");
   for (int count : {100, 1000, 4000, 16000, 100000}) {
     if (count > most) break;
     const FloatingFoam foam(count, 0.4);
@@ -62,6 +101,7 @@ int run(int most, int mostDirect) {
     for (double k : {0.3, 2.0, 8.0})
       for (double dt : {1e-3, 5e-3, 20e-3}) printRow(foam, pool, k, dt, count <= mostDirect);
   }
+  printTolerances(std::min(most, 4000));
   return 0;
 }
 

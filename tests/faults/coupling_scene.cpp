@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <fstream>
 #include <ostream>
+#include <tuple>
 
 #include "coupling/scene_toml.h"
 #include "tests/support/temporary_path.h"
@@ -212,6 +213,27 @@ TEST(BubbleFile, IsRefusedWithFileAndLine) {
   EXPECT_NE(
       messageOfBubbles(head + good, solid).find("bad_bubbles.csv:2: position [0.5, 0.5, 0.5] is inside a"),
       std::string::npos);
+}
+
+TEST(BubbleSource, IsRefusedWithFileAndLine) {
+  const auto messageOfSource = [](const std::string& centre, const std::string& most) {
+    return messageOf(
+        kDomain + "[[solid]]\nshape = 'sphere'\ncentre = [0.5, 0.5, 0.5]\nradius = 0.2\n" +
+        "[[bubble_source]]\nname = 'frit'\nshape = 'sphere'\ncentre = " + centre +
+        "\nradius = 0.1\nrate = 10\nradius_law = 'uniform'\nmin_radius = 1e-3\nmax_radius = " + most + "\n");
+  };
+  const std::tuple<std::string, std::string, std::vector<std::string>> kCases[] = {
+      {"[0.5, 0.5, 0.5]",
+       "1e-3",
+       {":7:1: bubble_source 'frit'", "[0.5, 0.5, 0.5] m", "inside a solid", "move"}},
+      {"[2, 0.5, 0.5]", "1e-3", {":7:1: bubble_source 'frit'", "outside the domain", "move"}},
+      {"[0.5, 0.8, 0.5]", "0.6", {":7:1: bubble_source 'frit'", "max_radius = 0.6 m", "at most 0.5 m"}}};
+  for (const auto& [centre, most, parts] : kCases) {
+    const std::string message = messageOfSource(centre, most);
+    for (const std::string& part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+  }
+  EXPECT_EQ(messageOfSource("[0.5, 0.8, 0.5]", "0.5"), "");
 }
 
 TEST(SceneFile, MissingFileIsAFileError) {
