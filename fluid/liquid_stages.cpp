@@ -11,6 +11,7 @@
 #include "fluid/liquid_measures.h"
 #include "fluid/open_boundary.h"
 #include "fluid/pocket_markers.h"
+#include "fluid/specks.h"
 
 namespace spume::fluid {
 namespace {
@@ -164,15 +165,20 @@ void LiquidStages::moveDrops(double dt, LiquidStepReport& report) {
   landed = std::move(flight.landed);
   for (const Drop& drop : landed) volumeControl.deposit(drop.position, drop.volume);
   if (state.subSteps % kSubStepsPerDropVolume == 0) drops.refreshVolumes(scene, state.phi, state.negative);
-  for (Drop& drop : drops.launch(scene, state.phi, state.velocity, state.negative)) {
+  launch(drops.launch(scene, state.phi, state.velocity, state.negative), report);
+  report.landed += volumeOf(landed);
+  report.drained += flight.left;
+}
+
+/// Drops get their volume from the bodies they leave.
+void LiquidStages::launch(std::vector<Drop> launched, LiquidStepReport& report) {
+  for (Drop& drop : launched) {
     drop.volume = volumeControl.withdraw(drop.position, drop.volume);
     if (!(drop.volume > 0)) continue;
     report.launched += drop.volume;
     drop.id = state.dropsEver++;
     state.drops.push_back(drop);
   }
-  report.landed += volumeOf(landed);
-  report.drained += flight.left;
 }
 
 void LiquidStages::reseed() {
@@ -201,10 +207,20 @@ void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& rep
   const std::vector<PouredVolume>& poured = inflows.stamp(state.time + dt, dt, state.phi, solids);
   for (const PouredVolume& p : poured) report.poured += p.volume;
   extension.apply(state.phi);
-  bodies.find(state.grid, state.phi, solids);
+  findBodies(report);
   volumeControl.update(bodies, state.velocity, dt, poured, gas);
   if (pocketsFilled || inflows.reshaped()) findPockets(state.time + dt);
   pocketBooks.update(pockets, state.velocity, dt);
+}
+
+/// The bodies of the liquid, without those that are too fine for the grid: these become drops.
+void LiquidStages::findBodies(LiquidStepReport& report) {
+  bodies.find(state.grid, state.phi, solids);
+  std::vector<Drop> specks = releaseSpecks(state.grid, bodies, state.velocity, state.negative, state.phi);
+  if (specks.empty()) return;
+  launch(std::move(specks), report);
+  extension.apply(state.phi);
+  bodies.find(state.grid, state.phi, solids);
 }
 
 void LiquidStages::moveVelocity(double dt, LiquidStepReport& report) {

@@ -84,6 +84,8 @@ struct LiquidStages {
   void correctSurface();
   void loseMarkers();
   void moveDrops(double dt, LiquidStepReport& report);
+  void launch(std::vector<Drop> launched, LiquidStepReport& report);
+  void findBodies(LiquidStepReport& report);
   void reseed();
   void findPockets(double t);
   void fillPockets(double dt);

@@ -1,0 +1,85 @@
+#include "fluid/specks.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "fluid/marker_chunks.h"
+
+namespace spume::fluid {
+namespace {
+
+constexpr std::ptrdiff_t kLargestSpeck = 3;  // [cells]
+constexpr float kBarelyWet = 0.1f;           // depth of the cells' centres at most [cells]
+constexpr float kDry = 1;  // phi left behind [cells]: no part of such a cell counts as liquid
+
+using SpeckCells = std::vector<std::pair<std::int32_t, Eigen::Vector3i>>;  // body and cell
+
+/// The cells of all bodies that are small enough, by body.
+SpeckCells cellsOfSmallBodies(const LiquidBodies& bodies) {
+  SpeckCells cells;
+  const Eigen::Vector3i& size = bodies.label.size();
+  for (int i = 0; i < size.x(); ++i)
+    for (int j = 0; j < size.y(); ++j) {
+      const std::int32_t* label = &bodies.label(i, j, 0);
+      for (int k = 0; k < size.z(); ++k)
+        if (label[k] >= 0 && bodies.bodies[label[k]].cells <= kLargestSpeck)
+          cells.emplace_back(label[k], Eigen::Vector3i(i, j, k));
+    }
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return cells;
+}
+
+/// Clears the flag of every body that a marker lies in.
+void keepThoseWithMarkers(const LiquidBodies& bodies, const MarkerSet& negative,
+                          std::vector<std::uint8_t>& isSpeck) {
+  const Eigen::Vector3i last = bodies.label.size() - Eigen::Vector3i::Ones();
+  const auto cellOf = [](float x, int high) { return std::clamp(static_cast<int>(std::floor(x)), 0, high); };
+  forEachMarkerChunk(negative.size(), [&](std::size_t first, std::size_t end) {
+    for (std::size_t m = first; m < end; ++m) {
+      const std::int32_t body = bodies.label(cellOf(negative.x[m], last.x()), cellOf(negative.y[m], last.y()),
+                                             cellOf(negative.z[m], last.z()));
+      if (body >= 0) std::atomic_ref(isSpeck[body]).store(0, std::memory_order_relaxed);
+    }
+  });
+}
+
+Eigen::Vector3d meanVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell) {
+  Eigen::Vector3d mean;
+  for (int a = 0; a < 3; ++a)
+    mean[a] = 0.5 * (velocity[a](cell) + velocity[a](cell + Eigen::Vector3i::Unit(a)));
+  return mean;
+}
+
+}  // namespace
+
+std::vector<Drop> releaseSpecks(const GridSpec& grid, const LiquidBodies& bodies, const MacVelocity& velocity,
+                                const MarkerSet& negative, DenseField<float>& phi) {
+  const auto isSmall = [](const LiquidBody& body) { return body.cells <= kLargestSpeck; };
+  if (std::none_of(bodies.bodies.begin(), bodies.bodies.end(), isSmall)) return {};
+  const SpeckCells cells = cellsOfSmallBodies(bodies);
+  std::vector<std::uint8_t> isSpeck(bodies.bodies.size(), 0);
+  for (const auto& [body, cell] : cells) isSpeck[body] = 1;
+  const float depth = kBarelyWet * static_cast<float>(grid.dx);
+  for (const auto& [body, cell] : cells)
+    if (phi(cell) < -depth) isSpeck[body] = 0;
+  if (std::none_of(isSpeck.begin(), isSpeck.end(), [](auto flag) { return flag != 0; })) return {};
+  keepThoseWithMarkers(bodies, negative, isSpeck);
+
+  std::vector<Drop> drops;
+  std::int32_t last = -1;
+  for (const auto& [body, cell] : cells) {
+    if (!isSpeck[body]) continue;
+    const LiquidBody& whole = bodies.bodies[body];
+    if (body != last) drops.push_back({whole.centroid, Eigen::Vector3d::Zero(), whole.volume});
+    drops.back().velocity += meanVelocity(velocity, cell) / static_cast<double>(whole.cells);
+    phi(cell) = kDry * static_cast<float>(grid.dx);
+    last = body;
+  }
+  return drops;
+}
+
+}  // namespace spume::fluid
