@@ -278,7 +278,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("events");
   if (holdsVolumes(s.params)) s.holdVolumes(liquid);
   clock.end("volume");
-  relabel(s.phiEnd, s.next);
+  relabel(s.phiEnd, s.next);  // again: labels depend on radii
   s.reportClassChanges(bubbles, report);
   clock.end("events");
   report.solverIterations = solve.iterations, report.solverResidual = solve.residual;
