@@ -5,6 +5,7 @@
 
 #include "fluid/disjoint_sets.h"
 #include "fluid/level_set.h"
+#include "fluid/liquid_measures.h"
 
 namespace spume::fluid {
 namespace {
@@ -30,12 +31,6 @@ float levelOfNeighbours(const GridSpec& grid, const WallSides& sides, const Dens
       ++count;
     }
   return static_cast<float>(count > 0 ? sum / count : -grid.dx);
-}
-
-Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i& c) {
-  Eigen::Vector3d u;
-  for (int a = 0; a < 3; ++a) u[a] = 0.5 * (velocity[a](c) + velocity[a](c + Eigen::Vector3i::Unit(a)));
-  return u;
 }
 
 /// Liquid in the cells within one of the pocket's, each counted once [m^3].

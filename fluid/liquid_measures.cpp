@@ -58,6 +58,13 @@ double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity) {
   return reduceSlabs(n.x(), 0.0, slab, maxOrNan);
 }
 
+Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell) {
+  Eigen::Vector3d mean;
+  for (int a = 0; a < 3; ++a)
+    mean[a] = 0.5 * (velocity[a](cell) + velocity[a](cell + Eigen::Vector3i::Unit(a)));
+  return mean;
+}
+
 MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance,
                             double density, const Eigen::Vector3d& gravity) {
   MacVelocity velocity = state.velocity;

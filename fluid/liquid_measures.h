@@ -12,6 +12,9 @@ namespace spume::fluid {
 /// Largest magnitude of a velocity component on the faces of liquid cells [m/s]; NaN if any is not finite.
 double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity);
 
+/// Mean of a cell's faces [m/s].
+Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell);
+
 /// The velocity of a state at its own time: what it leads by, times the acceleration g - grad p/rho of the
 /// last projection, is taken back on the open faces of liquid cells; no further than the time `advance` [s]
 /// that acceleration acted, because that of an impact says nothing of the time before.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "fluid/liquid_measures.h"
 #include "fluid/marker_chunks.h"
 
 namespace spume::fluid {
@@ -47,13 +48,6 @@ void keepThoseWithMarkers(const LiquidBodies& bodies, const MarkerSet& negative,
   });
 }
 
-Eigen::Vector3d meanVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell) {
-  Eigen::Vector3d mean;
-  for (int a = 0; a < 3; ++a)
-    mean[a] = 0.5 * (velocity[a](cell) + velocity[a](cell + Eigen::Vector3i::Unit(a)));
-  return mean;
-}
-
 }  // namespace
 
 std::vector<Drop> releaseSpecks(const GridSpec& grid, const LiquidBodies& bodies, const MacVelocity& velocity,
@@ -75,7 +69,7 @@ std::vector<Drop> releaseSpecks(const GridSpec& grid, const LiquidBodies& bodies
     if (!isSpeck[body]) continue;
     const LiquidBody& whole = bodies.bodies[body];
     if (body != last) drops.push_back({whole.centroid, Eigen::Vector3d::Zero(), whole.volume});
-    drops.back().velocity += meanVelocity(velocity, cell) / static_cast<double>(whole.cells);
+    drops.back().velocity += cellVelocity(velocity, cell) / static_cast<double>(whole.cells);
     phi(cell) = kDry * static_cast<float>(grid.dx);
     last = body;
   }
