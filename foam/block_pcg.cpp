@@ -1,15 +1,14 @@
 #include "foam/block_pcg.h"
 
+#include <Eigen/LU>
 #include <cmath>
-#include <cstring>
-#include <numeric>
 
 #include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
 
-using Eigen::Vector4d;
+using Eigen::Vector4f;
 
 /// The residual's norm is guessed from the one the iteration knows; within kNear of the goal the guess is put
 /// right every kLook iterations. A look costs half an iteration, a guess left alone was found 1.6 times too
@@ -17,126 +16,153 @@ using Eigen::Vector4d;
 constexpr double kNear = 10;
 constexpr int kLook = 8;
 
-/// Partial sums of threads stand a cache line apart.
-constexpr std::size_t kSumStride = 8;
-
-using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-using FourFloats [[gnu::vector_size(4 * sizeof(float))]] = float;
-
-template <typename To, typename From>
-inline To loadAs(const From* from) {
-  To to;
-  std::memcpy(&to, from, sizeof to);
-  return to;
+/// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used.
+inline Quad coupled(const SweptSystem& a, std::int32_t first, std::int32_t last, const Vector4f* known) {
+  static_assert(SweptSystem::kRun % kQuads == 0);
+  QuadLanes sum = {};
+  for (std::int32_t e = first; e < last; e += static_cast<std::int32_t>(kQuads)) {
+    const QuadLanes coupling = loadQuads(&a.coupling[e]), of = gatherQuads(known, &a.other[e]);
+    sum += sumsOf(coupling * of) * coupling + fourthsOf(coupling) * of;
+  }
+  return joinQuads(sum);
 }
 
-/// coupling x v. The last number of v is 0, that of the result is not to be used.
-inline Four coupledOne(const SweptSystem& a, std::int32_t e, const Vector4d* known) {
-  const Four coupling = __builtin_convertvector(loadAs<FourFloats>(a.coupling[e].data()), Four);
-  const Four of = loadAs<Four>(known + a.other[e]);
-  Four dot = coupling * of;
-  dot += __builtin_shufflevector(dot, dot, 1, 0, 3, 2);
-  dot += __builtin_shufflevector(dot, dot, 2, 3, 0, 1);
-  return dot * coupling + __builtin_shufflevector(coupling, coupling, 3, 3, 3, 3) * of;
+Quad padded(const Eigen::Vector3d& v) {
+  return loadQuad(Vector4f(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0));
 }
 
-/// Sum over entries first .. last - 1 of coupling x known; see coupledOne.
-inline Vector4d coupled(const SweptSystem& a, std::int32_t first, std::int32_t last, const Vector4d* known) {
-  static_assert(SweptSystem::kRun == 4);
-  Four sum[4] = {};
-  for (std::int32_t e = first; e < last; e += 4)
-    for (int k = 0; k < 4; ++k) sum[k] += coupledOne(a, e + k, known);
-  const Four all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-  Vector4d out;
-  std::memcpy(out.data(), &all, sizeof all);
-  return out;
-}
-
-Vector4d padded(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z(), 0}; }
-
-/// Sums over the rows, in the order of sweepForth.
-template <typename Value>
-double sumForth(const SweptSystem& a, std::vector<double>& partial, const Value& rowValue) {
-  partial.assign(kSumStride * a.groups(), 0.0);
-  sweepForth(a, [&](std::size_t group, std::size_t k) { partial[kSumStride * group] += rowValue(k); });
-  return std::accumulate(partial.begin(), partial.end(), 0.0);
+double dot(const Quad& a, const Quad& b) {
+  const Quad product = a * b;
+  return static_cast<double>(product[0]) + product[1] + product[2];
 }
 
 }  // namespace
 
 int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
                       int maxIterations, Vectors3& x) {
-  for (auto* column : {&sum_, &residual_, &direction_}) column->resize(a.size());
-  known_.assign(2 * a.size() + 2, Vector4d::Zero());
-  double slope = start(a, factor, b), first = residual(a, factor);
-  // |r| follows the norm the iteration knows, sqrt(r . M^-1 r), closely enough to tell when to look at it.
-  double scale = first / std::sqrt(slope);
+  state_.resize(a.size()), image_.resize(a.size());
+  known_.assign(2 * a.size() + 2, Vector4f::Zero());
   int iterations = 0;
-  for (double momentum = 0; iterations < maxIterations && slope > 0; ++iterations) {
-    const double guess = scale * std::sqrt(slope);
-    if (guess <= goal || (guess <= kNear * goal && iterations % kLook == 0)) {
-      const double exact = residual(a, factor);
-      if (exact <= goal) break;
-      scale = exact / std::sqrt(slope);
-    }
-    searchBack(a, factor, momentum);
-    const double curvature = searchForth(a, factor);
-    if (!(curvature > 0)) break;  // not positive definite, or lost to round-off
-    const double next = advance(a, factor, slope / curvature);
-    momentum = next / slope, slope = next;
-  }
-  forEachIndex(a.size(), [&](std::size_t k) { x[k] += sum_[k].head<3>(); });
+  Crew::lead(a.groups(), [&](Crew& crew) { iterations = iterate(crew, a, factor, b, goal, maxIterations); });
+  forEachIndex(a.size(), [&](std::size_t k) {
+    const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
+    x[k] += factor.scale[k].matrix().transpose() * sum;
+  });
   return iterations;
 }
 
-/// residual_ = C^-1 b, direction_ = 0; returns b . M^-1 b. Knows no search direction yet.
-double BlockPcg::start(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b) {
-  return sumForth(a, partial_, [&](std::size_t k) {
-    sum_[k].setZero(), direction_[k].setZero();
-    const Vector4d known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
-    residual_[k] = factor.inverse[k].times(padded(b[k]) - known);
-    known_[behind(k)] = -residual_[k];
-    return residual_[k].dot(factor.pivot[k].times(residual_[k]));
+/// Leaves the solution in the states' sums.
+int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
+                      double goal, int maxIterations) {
+  start(crew, a, factor, b);
+  // |r| follows the norm the iteration knows closely enough to tell when to look at it.
+  Norms known = look(crew, a, factor, 0);
+  double slope = known.slope, length = 0, momentum = 0;
+  int iterations = 0;
+  for (; iterations < maxIterations && known.slope > 0; ++iterations) {
+    const double guess = known.plain * std::sqrt(slope / known.slope);
+    if (guess <= goal || (guess <= kNear * goal && iterations % kLook == 0)) {
+      known = look(crew, a, factor, std::exchange(length, 0));
+      if (known.plain <= goal) break;
+    }
+    slope = searchBack(crew, a, factor, length, momentum);
+    const Found found = searchForth(crew, a, factor);
+    length = 0;
+    if (!(found.curvature > 0)) break;  // not positive definite, or lost to round-off
+    length = slope / found.curvature;
+    const double next = std::max(0.0, slope + length * (length * found.square - 2 * found.alongResidual));
+    momentum = next / slope, slope = next;
+  }
+  sweepForth(crew, a, [&](std::size_t, std::size_t k) { advance(k, static_cast<float>(length)); });
+  return iterations;
+}
+
+/// Sets the residual to b, all else to 0. Knows no search direction yet.
+void BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b) {
+  sweepForth(crew, a, [&](std::size_t, std::size_t k) {
+    const TriangularBlock& scale = factor.scale[k];
+    const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
+    const Quad residual = scale.times(padded(b[k]) - known);
+    known_[behind(k)] = toVector(-scale.transposedTimes(residual));
+    state_[k] = {Vector4f::Zero(), toVector(residual), Vector4f::Zero(), Vector4f::Zero()};
+    image_[k].setZero();
   });
 }
 
-/// direction_ = D residual_ + momentum direction_; the search direction is C^-T direction_.
-void BlockPcg::searchBack(const SweptSystem& a, const IncompleteCholesky& factor, double momentum) {
-  sweepBack(a, [&](std::size_t, std::size_t k) {
-    direction_[k] = factor.pivot[k].times(residual_[k]) + momentum * direction_[k];
-    const Vector4d known = coupled(a, a.row[k].ahead, a.row[k].behind, known_.data());
-    known_[k] = factor.inverse[k].times(direction_[k] + known);
-  });
+/// Goes `length` along the search direction.
+inline void BlockPcg::advance(std::size_t k, float length) {
+  State& s = state_[k];
+  const Quad step = loadQuad(s.step);
+  s.sum = toVector(loadQuad(s.sum) + length * step);
+  s.residual = toVector(loadQuad(s.residual) - length * (step + loadQuad(image_[k])));
 }
 
-/// Finds the image of the search direction p; returns p . A p.
-double BlockPcg::searchForth(const SweptSystem& a, const IncompleteCholesky& factor) {
-  return sumForth(a, partial_, [&](std::size_t k) {
-    const Vector4d& p = stepOf(k);
-    // C^-1 (A - C) p while the sweep runs: later rows need it so.
-    const Vector4d known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
-    const Vector4d image = factor.inverse[k].times(direction_[k] + factor.excess[k].times(p) - known);
-    known_[behind(k)] = -image;
-    return direction_[k].dot(p + image);
+/// Goes `length` along the last search direction and turns towards the residual: finds C^T p, then p. Returns
+/// r . M^-1 r of the residual there.
+double BlockPcg::searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
+                            double momentum) {
+  const auto stride = static_cast<float>(length), turn = static_cast<float>(momentum);
+  partial_.assign(a.groups(), {});
+  sweepBack(crew, a, [&](std::size_t group, std::size_t k) {
+    State& s = state_[k];
+    const TriangularBlock& scale = factor.scale[k];
+    advance(k, stride);
+    const Quad residual = loadQuad(s.residual), direction = residual + turn * loadQuad(s.direction);
+    const Quad known = coupled(a, a.row[k].ahead, a.row[k].behind, known_.data());
+    const Quad step = direction + scale.times(known);
+    known_[k] = toVector(scale.transposedTimes(step));
+    s.direction = toVector(direction), s.step = toVector(step);
+    partial_[group].square += dot(residual, residual);
   });
+  double slope = 0;
+  for (const Found& found : partial_) slope += found.square;
+  return slope;
 }
 
-/// Takes the step; returns r . M^-1 r of the new residual.
-double BlockPcg::advance(const SweptSystem& a, const IncompleteCholesky& factor, double step) {
-  return sumForth(a, partial_, [&](std::size_t k) {
-    sum_[k] += step * stepOf(k);
-    residual_[k] -= step * (stepOf(k) - known_[behind(k)]);
-    return residual_[k].dot(factor.pivot[k].times(residual_[k]));
+/// Finds the image q of the search direction p.
+BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor) {
+  partial_.assign(a.groups(), {});
+  sweepForth(crew, a, [&](std::size_t group, std::size_t k) {
+    const State& s = state_[k];
+    const TriangularBlock& scale = factor.scale[k];
+    const Quad direction = loadQuad(s.direction), step = loadQuad(s.step);
+    const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
+    const Quad image = direction + factor.excess[k].times(step) - scale.times(known);
+    known_[behind(k)] = toVector(-scale.transposedTimes(image));
+    image_[k] = toVector(image);
+    const Quad change = step + image;
+    Found& sums = partial_[group];
+    sums.curvature += dot(direction, change);
+    sums.alongResidual += dot(loadQuad(s.residual), change), sums.square += dot(change, change);
   });
+  Found sums;
+  for (const Found& found : partial_) {
+    sums.curvature += found.curvature;
+    sums.alongResidual += found.alongResidual, sums.square += found.square;
+  }
+  return sums;
 }
 
-/// |r| = |C residual_|; forgets the search direction.
-double BlockPcg::residual(const SweptSystem& a, const IncompleteCholesky& factor) {
-  forEachIndex(a.size(), [&](std::size_t k) { known_[k].setZero(), known_[behind(k)] = -residual_[k]; });
-  return std::sqrt(sumForth(a, partial_, [&](std::size_t k) {
-    const Vector4d known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
-    return (factor.pivot[k].times(residual_[k]) + known).head<3>().squaredNorm();
-  }));
+/// Goes `length` along the search direction, which it forgets, and finds the norms of the residual there.
+BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                               double length) {
+  sweepForth(crew, a, [&](std::size_t, std::size_t k) {
+    advance(k, static_cast<float>(length));
+    known_[k].setZero();
+    known_[behind(k)] = toVector(-factor.scale[k].transposedTimes(loadQuad(state_[k].residual)));
+  });
+  partial_.assign(a.groups(), {});
+  sweepForth(crew, a, [&](std::size_t group, std::size_t k) {
+    const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
+    const Eigen::Vector3d scaled = state_[k].residual.head<3>().cast<double>();
+    const Eigen::Vector3d own = factor.scale[k].matrix().triangularView<Eigen::Lower>().solve(scaled);
+    partial_[group].curvature += (own + toVector(known).head<3>().cast<double>()).squaredNorm();
+    partial_[group].square += scaled.squaredNorm();
+  });
+  Norms norms = {0, 0};
+  for (const Found& found : partial_) norms.plain += found.curvature, norms.slope += found.square;
+  norms.plain = std::sqrt(norms.plain);
+  return norms;
 }
 
 }  // namespace spume::foam

@@ -9,33 +9,51 @@ namespace spume::foam {
 /// that an iteration costs one product: with C = D + L and A = C + C^T + (diag A - 2 D) + E, where E couples
 /// blocks, each product with C^-1 A C^-T is a sweep back and a sweep forth [Eisenstat 1981]. Blocks are swept
 /// in parallel; sums are taken group by group, so the result does not depend on the number of threads.
+///
+/// All in single precision, in the coordinates in which D is the unit matrix (IncompleteCholesky): an iteration
+/// waits for memory. What rounding leaves is for the caller to find and to improve again.
 class BlockPcg {
  public:
-  /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] or
-  /// `maxIterations`. Returns the iterations made.
+  /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far as
+  /// the iteration knows, or `maxIterations`. Returns the iterations made.
   int improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
               int maxIterations, Vectors3& x);
 
  private:
-  double start(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
-  void searchBack(const SweptSystem& a, const IncompleteCholesky& factor, double momentum);
-  double searchForth(const SweptSystem& a, const IncompleteCholesky& factor);
-  double advance(const SweptSystem& a, const IncompleteCholesky& factor, double step);
-  double residual(const SweptSystem& a, const IncompleteCholesky& factor);
+  /// What the iteration knows of a row, in one cache line. With G of IncompleteCholesky and the search
+  /// direction p:
+  struct alignas(64) State {
+    Eigen::Vector4f direction;  ///< G C^T p
+    Eigen::Vector4f residual;   ///< G^-T C^-1 r
+    Eigen::Vector4f sum;        ///< G^-T e so far
+    Eigen::Vector4f step;       ///< G^-T p
+  };
+  /// What a search has found: p . A p, and of the residual's change A p for a step of 1 its products with the
+  /// residual and itself, in the norm of M^-1.
+  struct alignas(64) Found {
+    double curvature = 0, alongResidual = 0, square = 0;
+  };
+  struct Norms {
+    double plain, slope;  ///< |r|, r . M^-1 r
+  };
+
+  int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
+              int maxIterations);
+  void start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
+  double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
+                    double momentum);
+  Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor);
+  void advance(std::size_t k, float length);
+  Norms look(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length);
 
   /// Where the list of known vectors holds what rows behind a row have become.
-  std::size_t behind(std::size_t k) const { return sum_.size() + 1 + k; }
-  const Eigen::Vector4d& stepOf(std::size_t k) const { return known_[k]; }
+  std::size_t behind(std::size_t k) const { return state_.size() + 1 + k; }
 
-  /// Three numbers and a 0, a register each.
-  using Vectors4 = std::vector<Eigen::Vector4d>;
-
-  Vectors4 sum_;        ///< e so far
-  Vectors4 residual_;   ///< C^-1 of the residual
-  Vectors4 direction_;  ///< C^T of the search direction
-  /// What couplings act on, by SweptSystem::other: the search direction, a 0, and minus its image C^-1 A.
-  Vectors4 known_;
-  std::vector<double> partial_;  ///< sums by group
+  std::vector<State> state_;
+  std::vector<Eigen::Vector4f> image_;  ///< G^-T q with q = C^-1 (A - C) p
+  /// What couplings act on, by SweptSystem::other: p, a 0, and -q.
+  std::vector<Eigen::Vector4f> known_;
+  std::vector<Found> partial_;  ///< sums by group, a cache line apart
 };
 
 }  // namespace spume::foam

@@ -1,6 +1,6 @@
 #include "foam/incomplete_cholesky.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include "foam/parallel.h"
 
@@ -15,31 +15,37 @@ Eigen::Matrix3d sandwich(const SweptSystem::Coupling& coupling, const Eigen::Mat
   return a.dot(ma) * a * a.transpose() + c * (mixed + mixed.transpose()) + c * c * m;
 }
 
+/// G^T G, the D^-1 that sweeps apply.
+Eigen::Matrix3d squareOf(const TriangularBlock& scale) {
+  const Eigen::Matrix3d g = scale.matrix();
+  return g.transpose() * g;
+}
+
 }  // namespace
 
-void IncompleteCholesky::factor(const SweptSystem& a) {
-  pivot.resize(a.size()), inverse.resize(a.size()), excess.resize(a.size());
+void IncompleteCholesky::factor(Crew& crew, const SweptSystem& a) {
+  scale.resize(a.size()), excess.resize(a.size()), pivot_.resize(a.size()), diagonal_.resize(a.size());
   const auto behind = static_cast<std::int32_t>(a.size()) + 1;
-  sweepForth(a, [&](std::size_t, std::size_t k) {
-    Eigen::Matrix3d d = a.diagonal[k].matrix();
+  sweepForth(crew, a, [&](std::size_t, std::size_t k) {
+    Eigen::Matrix3d d = a.diagonal[k];
     for (std::int32_t e = a.row[k].behind; e < a.row[k].beyond; ++e)
-      d -= sandwich(a.coupling[e], inverse[a.other[e] - behind].matrix());
+      d -= sandwich(a.coupling[e], squareOf(scale[a.other[e] - behind]));
     setPivot(a, k, d);
   });
 }
 
 void IncompleteCholesky::refresh(const SweptSystem& a) {
   forEachIndex(a.size(), [&](std::size_t k) {
-    if (!a.changed[k]) return;
-    const Eigen::Matrix3d d = pivot[k].matrix(), before = excess[k].matrix() + 2 * d;
-    setPivot(a, k, d + a.diagonal[k].matrix() - before);
+    if (a.changed[k]) setPivot(a, k, pivot_[k] + a.diagonal[k] - diagonal_[k]);
   });
 }
 
 void IncompleteCholesky::setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d) {
-  pivot[k] = SymmetricBlock(d);
-  inverse[k] = SymmetricBlock(d.inverse());
-  excess[k] = SymmetricBlock(a.diagonal[k].matrix() - 2 * d);
+  pivot_[k] = d, diagonal_[k] = a.diagonal[k];
+  const Eigen::Matrix3d lower = d.llt().matrixL();
+  scale[k] = TriangularBlock(lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity()));
+  const Eigen::Matrix3d g = scale[k].matrix();
+  excess[k] = SymmetricBlock(g * a.diagonal[k] * g.transpose() - 2 * Eigen::Matrix3d::Identity());
 }
 
 }  // namespace spume::foam

@@ -11,18 +11,24 @@ namespace spume::foam {
 /// Vorst 1977]. Exact for chains and trees; its set-up costs two products. D stays positive definite:
 /// couplings B are positive semidefinite and D_k - B_ik too (by induction D_k >= own_k + sum of B_kj over
 /// later j), so B D_k^-1 B <= B. With no couplings inside blocks D is the diagonal: block Jacobi.
+///
+/// D^-1 is kept as G^T G with G triangular, and what else concerns a row in the coordinates in which D is the
+/// unit matrix. A small bubble is up to 1e7 times stiffer along a contact than its inertia across it; numbers
+/// in single precision carry both in these coordinates, and in no others.
 struct IncompleteCholesky {
-  std::vector<SymmetricBlock> pivot;    ///< D [kg]
-  std::vector<SymmetricBlock> inverse;  ///< D^-1 [1/kg]
-  std::vector<SymmetricBlock> excess;   ///< diagonal of A - 2 D [kg]
+  std::vector<TriangularBlock> scale;  ///< G [kg^-1/2]
+  std::vector<SymmetricBlock> excess;  ///< G (A_ii - 2 D) G^T [-]
 
-  void factor(const SweptSystem& a);
+  /// The crew's tasks are the groups of `a`.
+  void factor(Crew& crew, const SweptSystem& a);
   /// Takes on the diagonals that SweptSystem::refresh has changed, each by itself: D grows by what A has
   /// grown. What that does to later rows is left out; D stays positive definite, as above.
   void refresh(const SweptSystem& a);
 
  private:
   void setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d);
+
+  std::vector<Eigen::Matrix3d> pivot_, diagonal_;  ///< D and A_ii as last set [kg]
 };
 
 }  // namespace spume::foam

@@ -62,7 +62,7 @@ void SweptSystem::copyRow(const BlockSystem& a, std::size_t k, bool sweeps) {
 void SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) {
   Eigen::Matrix3d sum = own_[k] = a.own[k];
   for (std::int32_t e = row[k].ahead; e < row[k].end; ++e) sum += matrixOf(coupling[e]);
-  diagonal[k] = SymmetricBlock(sum);
+  diagonal[k] = sum;
 }
 
 void SweptSystem::refresh(const BlockSystem& a) {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "foam/block_system.h"
+#include "foam/crew.h"
 #include "foam/symmetric_block.h"
 
 namespace spume::foam {
@@ -18,8 +17,8 @@ namespace spume::foam {
 /// BlockSystem undoes, and a sweep moves half the memory.
 struct SweptSystem {
   /// Rows of a block, at most: the larger, the better the factor; the fewer, the more threads.
-  static constexpr std::size_t kBlockRows = 8192;
-  static constexpr std::size_t kAbreast = 2;  ///< blocks a thread sweeps side by side
+  static constexpr std::size_t kBlockRows = 4096;
+  static constexpr std::size_t kAbreast = 4;  ///< blocks a thread sweeps side by side
   static constexpr std::size_t kLeastGroups = 2;
   static constexpr std::size_t kLeastRows = 1024;  ///< of a block: a cut costs more than it gains below
   static constexpr std::int32_t kRun = 4;
@@ -44,7 +43,7 @@ struct SweptSystem {
   /// block, n + 1 more where it is behind in this block. Padding has n.
   std::vector<std::int32_t> other;
   std::vector<Coupling> coupling;
-  std::vector<SymmetricBlock> diagonal;  ///< own block and all couplings [kg]
+  std::vector<Eigen::Matrix3d> diagonal;  ///< own block and all couplings [kg]
   std::vector<std::uint8_t> changed;     ///< diagonals the last refresh() has changed
 
   std::size_t size() const { return row.size(); }
@@ -69,11 +68,11 @@ struct SweptSystem {
 
 /// Calls body(group, row) for the rows of each block in order. The blocks of a group go side by side, the
 /// first row of each, then the second: a row waits for the one before it, and others fill the wait. Groups
-/// run in parallel.
+/// are the crew's tasks.
 template <typename Body>
-void sweepForth(const SweptSystem& a, const Body& body) {
+void sweepForth(Crew& crew, const SweptSystem& a, const Body& body) {
   const std::size_t rows = a.blockRows(), groupRows = SweptSystem::kAbreast * rows;
-  tbb::parallel_for(std::size_t{0}, a.groups(), [&](std::size_t group) {
+  crew.forEachTask([&](std::size_t group) {
     const std::size_t first = group * groupRows, end = std::min(first + groupRows, a.size());
     for (std::size_t k = first; k < std::min(first + rows, end); ++k)
       for (std::size_t row = k; row < end; row += rows) body(group, row);
@@ -82,9 +81,9 @@ void sweepForth(const SweptSystem& a, const Body& body) {
 
 /// The same with the rows of each block from last to first.
 template <typename Body>
-void sweepBack(const SweptSystem& a, const Body& body) {
+void sweepBack(Crew& crew, const SweptSystem& a, const Body& body) {
   const std::size_t rows = a.blockRows(), groupRows = SweptSystem::kAbreast * rows;
-  tbb::parallel_for(std::size_t{0}, a.groups(), [&](std::size_t group) {
+  crew.forEachTask([&](std::size_t group) {
     const std::size_t first = group * groupRows, end = std::min(first + groupRows, a.size());
     for (std::size_t k = std::min(first + rows, end); k-- > first;)
       for (std::size_t row = k; row < end; row += rows) body(group, row);

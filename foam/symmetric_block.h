@@ -2,39 +2,55 @@
 
 #include <Eigen/Core>
 
+#include "foam/quad_lanes.h"
+
 namespace spume::foam {
 
 /// A symmetric 3 x 3 matrix by its six numbers, laid out so that a product is three multiplications of whole
-/// registers.
+/// quads.
 struct SymmetricBlock {
-  Eigen::Vector4d straight;  ///< xx, yy, zz, 0
-  Eigen::Vector4d crossed;   ///< xy, xz, yz, 0
+  Eigen::Vector4f straight;  ///< xx, yy, zz, 0
+  Eigen::Vector4f crossed;   ///< xy, xz, yz, 0
 
   SymmetricBlock() = default;
   explicit SymmetricBlock(const Eigen::Matrix3d& m)
-      : straight(m(0, 0), m(1, 1), m(2, 2), 0), crossed(m(0, 1), m(0, 2), m(1, 2), 0) {}
+      : straight(Eigen::Vector4d(m(0, 0), m(1, 1), m(2, 2), 0).cast<float>()),
+        crossed(Eigen::Vector4d(m(0, 1), m(0, 2), m(1, 2), 0).cast<float>()) {}
+
+  /// Acts on the first three numbers, the fourth may be any finite one; the fourth of the result is 0.
+  Quad times(const Quad& x) const {
+    const Quad s = loadQuad(straight), c = loadQuad(crossed);
+    return s * x + __builtin_shufflevector(c, c, 0, 0, 1, 3) * __builtin_shufflevector(x, x, 1, 0, 0, 3) +
+           __builtin_shufflevector(c, c, 1, 2, 2, 3) * __builtin_shufflevector(x, x, 2, 2, 1, 3);
+  }
+};
+
+/// A lower triangular 3 x 3 matrix by its six numbers; both products are three multiplications of whole quads.
+struct TriangularBlock {
+  Eigen::Vector4f straight;  ///< xx, yy, zz, 0
+  Eigen::Vector4f below;     ///< yx, zy, zx, 0
+
+  TriangularBlock() = default;
+  explicit TriangularBlock(const Eigen::Matrix3d& m)
+      : straight(Eigen::Vector4d(m(0, 0), m(1, 1), m(2, 2), 0).cast<float>()),
+        below(Eigen::Vector4d(m(1, 0), m(2, 1), m(2, 0), 0).cast<float>()) {}
 
   Eigen::Matrix3d matrix() const {
+    const Eigen::Vector4d s = straight.cast<double>(), b = below.cast<double>();
     Eigen::Matrix3d m;
-    m << straight[0], crossed[0], crossed[1], crossed[0], straight[1], crossed[2], crossed[1], crossed[2],
-        straight[2];
+    m << s[0], 0, 0, b[0], s[1], 0, b[2], b[1], s[2];
     return m;
   }
-  /// Acts on the first three numbers, the last may be any finite one; the last of the result is 0.
-  Eigen::Vector4d times(const Eigen::Vector4d& v) const {
-    using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-    const auto load = [](const Eigen::Vector4d& from) {
-      Four to;
-      __builtin_memcpy(&to, from.data(), sizeof to);
-      return to;
-    };
-    const Four s = load(straight), c = load(crossed), x = load(v);
-    const Four product =
-        s * x + __builtin_shufflevector(c, c, 0, 0, 1, 3) * __builtin_shufflevector(x, x, 1, 0, 0, 3) +
-        __builtin_shufflevector(c, c, 1, 2, 2, 3) * __builtin_shufflevector(x, x, 2, 2, 1, 3);
-    Eigen::Vector4d out;
-    __builtin_memcpy(out.data(), &product, sizeof product);
-    return out;
+  /// Act on the first three numbers; the fourth must be finite, the fourth of the result is 0.
+  Quad times(const Quad& x) const {
+    const Quad s = loadQuad(straight), b = loadQuad(below);
+    return s * x + __builtin_shufflevector(b, b, 3, 0, 1, 3) * __builtin_shufflevector(x, x, 3, 0, 1, 3) +
+           __builtin_shufflevector(b, b, 3, 3, 2, 3) * __builtin_shufflevector(x, x, 3, 3, 0, 3);
+  }
+  Quad transposedTimes(const Quad& x) const {
+    const Quad s = loadQuad(straight), b = loadQuad(below);
+    return s * x + __builtin_shufflevector(b, b, 0, 1, 3, 3) * __builtin_shufflevector(x, x, 1, 2, 3, 3) +
+           __builtin_shufflevector(b, b, 2, 3, 3, 3) * __builtin_shufflevector(x, x, 2, 3, 3, 3);
   }
 };
 
