@@ -16,9 +16,7 @@ std::int32_t padded(std::int32_t count) {
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
   row.resize(n), diagonal.resize(n), own_.resize(n), changed.assign(n, 1);
-  const std::size_t groups =
-      std::max(kLeastGroups, (n + kAbreast * kBlockRows - 1) / (kAbreast * kBlockRows));
-  blockRows_ = std::max(kLeastRows, (n + kAbreast * groups - 1) / (kAbreast * groups));
+  cutBlocks(a);
   forEachIndex(n, [&](std::size_t k) { row[k] = countRow(a, k, sweeps); });
   std::int32_t entries = 0;
   for (Row& r : row) {
@@ -29,8 +27,26 @@ void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   forEachIndex(n, [&](std::size_t k) { copyRow(a, k, sweeps), sumDiagonal(a, k); });
 }
 
+/// Cuts the rows into blocks of equal work: a bubble among others costs several times one that is alone.
+void SweptSystem::cutBlocks(const BlockSystem& a) {
+  constexpr std::size_t kOwnWork = 6;  // of a row without couplings, in couplings
+  const std::size_t n = a.size();
+  std::size_t groups = std::max(kLeastGroups, (n + kAbreast * kBlockRows - 1) / (kAbreast * kBlockRows));
+  groups = std::max<std::size_t>(1, std::min(groups, n / (kAbreast * kLeastRows)));
+  const std::size_t blocks = std::min(kAbreast * groups, std::max<std::size_t>(1, n / kLeastRows));
+  const std::size_t all = kOwnWork * n + a.other.size();
+  blockStart_.assign(kAbreast * groups + 1, n), blockOf_.resize(n);
+  std::size_t work = 0, block = 0;
+  blockStart_[0] = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (work * blocks >= (block + 1) * all && block + 1 < blocks) blockStart_[++block] = k;
+    blockOf_[k] = static_cast<std::uint32_t>(block);
+    work += kOwnWork + static_cast<std::size_t>(a.start[k + 1] - a.start[k]);
+  }
+}
+
 SweptSystem::Kind SweptSystem::kindOf(std::size_t k, std::size_t other, bool sweeps) const {
-  if (!sweeps || other / blockRows_ != k / blockRows_) return Kind::beyond;
+  if (!sweeps || blockOf_[other] != blockOf_[k]) return Kind::beyond;
   return other > k ? Kind::ahead : Kind::behind;
 }
 

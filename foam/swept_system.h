@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,11 +17,11 @@ namespace spume::foam {
 /// kept in single precision: the matrix differs by 1e-7 of each spring, which one refinement against the
 /// BlockSystem undoes, and a sweep moves half the memory.
 struct SweptSystem {
-  /// Rows of a block, at most: the larger, the better the factor; the fewer, the more threads.
+  /// Rows of a block, on average at most: the larger, the better the factor; the fewer, the more threads.
   static constexpr std::size_t kBlockRows = 4096;
   static constexpr std::size_t kAbreast = 4;  ///< blocks a thread sweeps side by side
   static constexpr std::size_t kLeastGroups = 2;
-  static constexpr std::size_t kLeastRows = 1024;  ///< of a block: a cut costs more than it gains below
+  static constexpr std::size_t kLeastRows = 512;  ///< of a block on average: a cut costs more than it gains below
   static constexpr std::int32_t kRun = 4;
 
   /// along [kg^1/2] and, last, across [kg] of a CouplingBlock.
@@ -47,8 +48,17 @@ struct SweptSystem {
   std::vector<std::uint8_t> changed;     ///< diagonals the last refresh() has changed
 
   std::size_t size() const { return row.size(); }
-  std::size_t blockRows() const { return blockRows_; }
-  std::size_t groups() const { return (size() + kAbreast * blockRows_ - 1) / (kAbreast * blockRows_); }
+  std::size_t groups() const { return (blockStart_.size() - 1) / kAbreast; }
+  /// The rows of block `block` of kAbreast x groups() are blockStart()[block] .. blockStart()[block + 1] - 1.
+  const std::vector<std::size_t>& blockStart() const { return blockStart_; }
+
+  /// Rows of the longest of kAbreast blocks.
+  static std::size_t longestBlock(const std::size_t* start) {
+    std::size_t longest = 0;
+    for (std::size_t block = 0; block < kAbreast; ++block)
+      longest = std::max(longest, start[block + 1] - start[block]);
+    return longest;
+  }
 
   /// Copies `a`. With `sweeps` false all couplings count as beyond their block: nothing to sweep along.
   void copy(const BlockSystem& a, bool sweeps);
@@ -57,12 +67,14 @@ struct SweptSystem {
 
  private:
   enum class Kind : std::uint8_t { ahead, behind, beyond };
+  void cutBlocks(const BlockSystem& a);
   Kind kindOf(std::size_t k, std::size_t other, bool sweeps) const;
   Row countRow(const BlockSystem& a, std::size_t k, bool sweeps) const;
   void copyRow(const BlockSystem& a, std::size_t k, bool sweeps);
   void sumDiagonal(const BlockSystem& a, std::size_t k);
 
-  std::size_t blockRows_ = 1;
+  std::vector<std::size_t> blockStart_ = {0};
+  std::vector<std::uint32_t> blockOf_;  ///< each row's
   std::vector<Eigen::Matrix3d> own_;  ///< of the BlockSystem, as last copied [kg]
 };
 
@@ -71,22 +83,24 @@ struct SweptSystem {
 /// are the crew's tasks.
 template <typename Body>
 void sweepForth(Crew& crew, const SweptSystem& a, const Body& body) {
-  const std::size_t rows = a.blockRows(), groupRows = SweptSystem::kAbreast * rows;
   crew.forEachTask([&](std::size_t group) {
-    const std::size_t first = group * groupRows, end = std::min(first + groupRows, a.size());
-    for (std::size_t k = first; k < std::min(first + rows, end); ++k)
-      for (std::size_t row = k; row < end; row += rows) body(group, row);
+    const std::size_t* start = &a.blockStart()[SweptSystem::kAbreast * group];
+    const std::size_t longest = SweptSystem::longestBlock(start);
+    for (std::size_t k = 0; k < longest; ++k)
+      for (std::size_t block = 0; block < SweptSystem::kAbreast; ++block)
+        if (start[block] + k < start[block + 1]) body(group, start[block] + k);
   });
 }
 
 /// The same with the rows of each block from last to first.
 template <typename Body>
 void sweepBack(Crew& crew, const SweptSystem& a, const Body& body) {
-  const std::size_t rows = a.blockRows(), groupRows = SweptSystem::kAbreast * rows;
   crew.forEachTask([&](std::size_t group) {
-    const std::size_t first = group * groupRows, end = std::min(first + groupRows, a.size());
-    for (std::size_t k = std::min(first + rows, end); k-- > first;)
-      for (std::size_t row = k; row < end; row += rows) body(group, row);
+    const std::size_t* start = &a.blockStart()[SweptSystem::kAbreast * group];
+    const std::size_t longest = SweptSystem::longestBlock(start);
+    for (std::size_t k = 1; k <= longest; ++k)
+      for (std::size_t block = 0; block < SweptSystem::kAbreast; ++block)
+        if (start[block] + k <= start[block + 1]) body(group, start[block + 1] - k);
   });
 }
 
