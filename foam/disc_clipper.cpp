@@ -33,21 +33,15 @@ LaneMask firstLanes() {
 
 void CuttingPlanes::resize(std::size_t planes) {
   count = planes;
-  const std::size_t padded = paddedToLanes(planes);
-  for (auto* column : {&nx, &ny, &nz, &heightShift}) {
-    column->resize(std::max(column->size(), padded));
-    std::fill(column->begin() + static_cast<std::ptrdiff_t>(planes),
-              column->begin() + static_cast<std::ptrdiff_t>(padded), 0.0);
-  }
-  height.resize(std::max(height.size(), padded));
-  std::fill(height.begin() + static_cast<std::ptrdiff_t>(planes),
-            height.begin() + static_cast<std::ptrdiff_t>(padded), 1.0);
+  if (const std::size_t padded = paddedToLanes(planes); nx.size() < padded)
+    for (auto* column : {&nx, &ny, &nz, &height, &heightShift}) column->resize(padded);
 }
 
-void DiscClipper::Lines::resize(std::size_t lines) {
-  const std::size_t padded = paddedToLanes(lines);
-  if (ux.size() >= padded) return;
-  for (auto* column : {&ux, &uy, &offset, &shift, &slope2, &half, &t1, &t2}) column->resize(padded);
+/// Room for a block of lanes after the last line: closing gaps writes whole blocks.
+void DiscClipper::Lines::reserve(std::size_t lines) {
+  const std::size_t room = paddedToLanes(lines) + kLanes;
+  if (ux.size() >= room) return;
+  for (auto* column : {&ux, &uy, &offset, &slope2, &shift, &half, &t1, &t2}) column->resize(room);
 }
 
 FilmShape DiscClipper::clip(const CuttingPlanes& planes, std::size_t face, const DiscBalls& balls) {
@@ -65,51 +59,29 @@ bool DiscClipper::leavesAny(const CuttingPlanes& planes, std::size_t face, doubl
   return discRadius2 > 0 && findLines(planes, face, discRadius2) && clipLines(discRadius2);
 }
 
-/// Collects the lines that cut the disc; false if a plane cuts all of it away.
+/// Collects the lines that cut the disc, at |D| < rho; false if one at D <= -rho takes all of it.
 bool DiscClipper::findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2) {
-  const std::size_t padded = paddedToLanes(planes.count);
-  if (px_.size() < padded)
-    for (auto* column : {&px_, &py_, &toPlane_, &alongNormal_, &slope2_}) column->resize(padded);
   const double nx = planes.nx[face], ny = planes.ny[face], nz = planes.nz[face], height = planes.height[face];
+  const double shift = planes.heightShift[face];
   const PlaneFrame frame(nx, ny, nz);
-  frame_ = {
-      height * Eigen::Vector3d(nx, ny, nz), {frame.ux, frame.uy, frame.uz}, {frame.vx, frame.vy, frame.vz}};
-  for (std::size_t k = 0; k < padded; k += kLanes) {
+  lines_.reserve(planes.count);
+  std::size_t m = 0;
+  for (std::size_t k = 0; k < planes.count; k += kLanes) {
     const Lanes kx = loadLanes(&planes.nx[k]), ky = loadLanes(&planes.ny[k]), kz = loadLanes(&planes.nz[k]);
     const Lanes px = kx * frame.ux + ky * frame.uy + kz * frame.uz;
     const Lanes py = kx * frame.vx + ky * frame.vy + kz * frame.vz;
-    const Lanes along = kx * nx + ky * ny + kz * nz;
-    storeLanes(&px_[k], px), storeLanes(&py_[k], py), storeLanes(&alongNormal_[k], along);
-    storeLanes(&toPlane_[k], loadLanes(&planes.height[k]) - height * along);
-    storeLanes(&slope2_[k], px * px + py * py);
-  }
-  toPlane_[face] = 1, slope2_[face] = 0;  // does not cut itself
-  if (!pickLines(planes.count, discRadius2)) return false;
-  const double shift = planes.heightShift[face];
-  lines_.resize(lines_.plane.size());
-  for (std::size_t m = 0; m < lines_.count; ++m) {
-    const std::size_t k = lines_.plane[m];
-    lines_.ux[m] = px_[k], lines_.uy[m] = py_[k], lines_.offset[m] = toPlane_[k],
-    lines_.slope2[m] = slope2_[k];
-    lines_.shift[m] = planes.heightShift[k] - alongNormal_[k] * shift;
-  }
-  return true;
-}
-
-/// Lists the planes whose lines lie within the disc, at |D| < rho; false if one at D <= -rho takes all of the
-/// disc.
-bool DiscClipper::pickLines(std::size_t planes, double discRadius2) {
-  if (lines_.plane.size() < planes) lines_.plane.resize(planes);
-  std::size_t m = 0;
-  bool gone = false;
-  for (std::size_t k = 0; k < planes; ++k) {
-    const bool cuts = toPlane_[k] * toPlane_[k] < discRadius2 * slope2_[k];
-    gone |= !cuts & (toPlane_[k] < 0);
-    lines_.plane[m] = static_cast<std::uint32_t>(k);
-    m += cuts;
+    const Lanes along = kx * nx + ky * ny + kz * nz, slope2 = px * px + py * py;
+    const Lanes toPlane = loadLanes(&planes.height[k]) - height * along;
+    std::uint32_t others = lanesBelow(planes.count - k);
+    if (face - k < kLanes) others &= ~(1u << (face - k));
+    const std::uint32_t cuts = bitsOf(toPlane * toPlane < discRadius2 * slope2) & others;
+    if (bitsOf(toPlane < 0) & others & ~cuts) return false;
+    storeSelected(cuts, px, &lines_.ux[m]), storeSelected(cuts, py, &lines_.uy[m]);
+    storeSelected(cuts, toPlane, &lines_.offset[m]), storeSelected(cuts, slope2, &lines_.slope2[m]);
+    m += storeSelected(cuts, loadLanes(&planes.heightShift[k]) - along * shift, &lines_.shift[m]);
   }
   lines_.count = m;
-  return !gone;
+  return true;
 }
 
 /// Cuts each line by the disc and all other lines; false if lines cut the disc and nothing is left.
@@ -139,21 +111,25 @@ bool DiscClipper::clipLines(double discRadius2) {
   return lines_.count > 0;
 }
 
-/// Drops the lines of which nothing bounds the film: about half of them.
+/// Drops the lines of which nothing bounds the film: about half of them. Padded lines are empty.
 void DiscClipper::keepEdges() {
   std::size_t kept = 0;
-  closed_ = true;
-  for (std::size_t k = 0; k < lines_.count; ++k) {
-    centreInside_ &= !(lines_.offset[k] < 0);
-    for (auto* column : {&lines_.ux, &lines_.uy, &lines_.offset, &lines_.shift, &lines_.t1, &lines_.t2})
-      (*column)[kept] = (*column)[k];
-    const bool isLeft = lines_.t2[k] > lines_.t1[k];
-    closed_ &= (!isLeft) | ((lines_.t1[k] > -lines_.half[k]) & (lines_.t2[k] < lines_.half[k]));
-    kept += isLeft;
+  std::uint32_t beyond = 0, open = 0;
+  for (std::size_t k = 0; k < lines_.count; k += kLanes) {
+    const Lanes t1 = loadLanes(&lines_.t1[k]), t2 = loadLanes(&lines_.t2[k]),
+                half = loadLanes(&lines_.half[k]);
+    const std::uint32_t left = bitsOf(t2 > t1) & lanesBelow(lines_.count - k);
+    open |= left & ~bitsOf((t1 > -half) & (t2 < half));
+    beyond |= bitsOf(loadLanes(&lines_.offset[k]) < 0) & lanesBelow(lines_.count - k);
+    for (auto* column : {&lines_.offset, &lines_.shift})
+      storeSelected(left, loadLanes(&(*column)[k]), &(*column)[kept]);
+    storeSelected(left, t1, &lines_.t1[kept]);
+    kept += storeSelected(left, t2, &lines_.t2[kept]);
   }
+  centreInside_ = beyond == 0, closed_ = open == 0;
   lines_.count = kept;
-  for (std::size_t k = kept; k < paddedToLanes(kept); ++k)
-    lines_.offset[k] = lines_.shift[k] = lines_.t1[k] = lines_.t2[k] = 0;
+  for (auto* column : {&lines_.offset, &lines_.shift, &lines_.t1, &lines_.t2})
+    storeLanes(&(*column)[kept], Lanes{});
 }
 
 /// Makes the normals unit vectors and lets each line end at the rim. Padded lines are empty.
@@ -233,25 +209,6 @@ void DiscClipper::integrate(double height, double heightShift, double discRadius
   out.areaShift = sumOf(shifts) + out.arc * (balls.radius * balls.radiusShift - height * heightShift);
   out.solidNear = angle - sumOf(near.sum) + (1 - near.height / balls.radius) * out.arc;
   out.solidFar = angle - sumOf(far.sum) + (1 - far.height / balls.farRadius) * out.arc;
-}
-
-Eigen::Vector3d DiscClipper::pointInside() const {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (std::size_t k = 0; k < lines_.count; ++k) {
-    const Eigen::Vector2d normal(lines_.ux[k], lines_.uy[k]), along(-lines_.uy[k], lines_.ux[k]);
-    sum += lines_.offset[k] * normal + (lines_.t1[k] + lines_.t2[k]) / 2 * along;
-  }
-  const Eigen::Vector2d mean = sum / std::max(1.0, static_cast<double>(lines_.count));
-  return frame_.origin + mean.x() * frame_.u + mean.y() * frame_.v;
-}
-
-double DiscClipper::farthestCorner2() const {
-  double farthest2 = 0;
-  for (std::size_t k = 0; k < lines_.count; ++k) {
-    const double end = std::max(std::abs(lines_.t1[k]), std::abs(lines_.t2[k]));
-    farthest2 = std::max(farthest2, lines_.offset[k] * lines_.offset[k] + end * end);
-  }
-  return frame_.origin.squaredNorm() + farthest2;
 }
 
 }  // namespace spume::foam

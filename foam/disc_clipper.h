@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -17,7 +16,7 @@ struct CuttingPlanes {
   std::vector<double> height;       ///< signed distance of the plane from the bubble's centre [m]
   std::vector<double> heightShift;  ///< what undoing the tie-breaking jitter adds to the height [m]
 
-  /// Makes room for `planes` planes and pads with planes that never cut.
+  /// Makes room for `planes` planes, to whole lanes.
   void resize(std::size_t planes);
 };
 
@@ -38,35 +37,22 @@ class DiscClipper {
   /// without its integrals.
   bool leavesAny(const CuttingPlanes& planes, std::size_t face, double radius);
 
-  /// A point of the last disc clipped that was not empty, relative to the owner's centre [m]: the mean of its
-  /// edges.
-  Eigen::Vector3d pointInside() const;
-  /// Squared distance from the owner's centre to the farthest corner of that disc [m^2].
-  double farthestCorner2() const;
-
  private:
   /// Lines in which the other planes meet the disc's plane, and the piece of each that bounds the film; once
   /// clipped, only those that have one.
   struct Lines {
     std::size_t count = 0;
-    std::vector<std::uint32_t> plane;  ///< each comes from
-    std::vector<double> ux, uy;        ///< unit normals in the plane
-    std::vector<double> offset;        ///< D, signed distance from the disc's centre [m]
-    std::vector<double> slope2;        ///< squared sine of the angle between the planes [-]
-    std::vector<double> shift;         ///< what undoing the jitter adds to D [m]
-    std::vector<double> half;          ///< where the line meets the rim, at -half and half along it [m]
-    std::vector<double> t1, t2;        ///< ends of the edge along the line [m]; t2 > t1 if anything is left
+    std::vector<double> ux, uy;  ///< unit normals in the plane
+    std::vector<double> offset;  ///< D, signed distance from the disc's centre [m]
+    std::vector<double> slope2;  ///< squared sine of the angle between the planes [-]
+    std::vector<double> shift;   ///< what undoing the jitter adds to D [m]
+    std::vector<double> half;    ///< where the line meets the rim, at -half and half along it [m]
+    std::vector<double> t1, t2;  ///< ends of the edge along the line [m]; t2 > t1 if anything is left
 
-    void resize(std::size_t lines);
-  };
-
-  /// The disc's plane: its centre, from the owner's centre [m], and two axes.
-  struct Frame {
-    Eigen::Vector3d origin, u, v;
+    void reserve(std::size_t lines);
   };
 
   bool findLines(const CuttingPlanes& planes, std::size_t face, double discRadius2);
-  bool pickLines(std::size_t planes, double discRadius2);
   void scaleLines(double discRadius2);
   bool clipLines(double discRadius2);
   void keepEdges();
@@ -74,8 +60,6 @@ class DiscClipper {
   void integrate(double height, double heightShift, double discRadius2, const DiscBalls& balls,
                  FilmShape& out) const;
 
-  std::vector<double> px_, py_, toPlane_, alongNormal_, slope2_;  ///< of the planes, in the disc's frame
-  Frame frame_;
   Lines lines_;
   bool centreInside_ = true;  ///< no line cuts the disc's centre away
   bool closed_ = false;       ///< nothing is left of the rim
