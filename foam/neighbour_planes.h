@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "foam/disc_clipper.h"
+#include "foam/disc_lines.h"
 #include "foam/radical_plane.h"
 
 namespace spume::foam {

@@ -10,7 +10,8 @@
 
 #include "foam/ball_checks.h"
 #include "foam/cell_sums.h"
-#include "foam/disc_clipper.h"
+#include "foam/disc_lines.h"
+#include "foam/edge_batch.h"
 #include "foam/neighbour_planes.h"
 #include "foam/overlap_pairs.h"
 
@@ -45,7 +46,9 @@ struct PowerCells::Internals {
     NeighbourDistances distances;
     NeighbourPlanes around;
     std::vector<std::int32_t> row, cutting, place;
-    DiscClipper clipper;
+    std::vector<DiscLines> lines;        ///< of the discs of one ball that are not gone yet
+    std::vector<std::int32_t> lineDisc;  ///< place in `cutting` of each
+    EdgeBatch edges;
   };
 
   OverlapPairs near;
@@ -71,6 +74,7 @@ struct PowerCells::Internals {
   bool isContained(std::int32_t s, std::int32_t t) const;
   void clipDiscs();
   void clipRow(std::int32_t s, Scratch& local);
+  void findLines(std::int32_t s, Scratch& local);
   bool owns(std::int32_t s, std::int32_t k) const;
   void note(std::int32_t s, std::int32_t k, std::int32_t place);
   void numberPairs(FoamTopology& out);
@@ -149,28 +153,48 @@ bool PowerCells::Internals::owns(std::int32_t s, std::int32_t k) const {
 }
 
 void PowerCells::Internals::clipDiscs() {
-  forEachRow([&](std::int32_t s, Scratch& local) { clipRow(s, local); });
+  tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, size(), kBubbleGrain), [&](const auto& range) {
+    Scratch& local = scratch.local();
+    for (std::int32_t s = range.begin(); s < range.end(); ++s)
+      if (firstOwn[s] < firstOwn[s + 1]) clipRow(s, local);
+    local.edges.flush();
+  });
 }
 
 /// Clips the discs that ball s owns, each by all planes that cut the ball.
 void PowerCells::Internals::clipRow(std::int32_t s, Scratch& local) {
-  if (firstOwn[s] == firstOwn[s + 1]) return;
   local.cutting.clear(), local.place.clear();
   for (std::int32_t k = 0; k < overlaps[s]; ++k)
     if (const std::int32_t t = row(s)[k]; !hidden[s] && !hidden[t])
       local.cutting.push_back(t), local.place.push_back(k);
     else if (owns(s, k))
       note(s, k, -1);
-  NeighbourPlanes& around = local.around;
-  around.find(balls, s, local.cutting.data(), local.cutting.size());
+  local.around.find(balls, s, local.cutting.data(), local.cutting.size());
+  findLines(s, local);
+  for (std::size_t disc = 0; disc < local.lineDisc.size(); ++disc) local.lines[disc].scale();
   std::int32_t next = firstOwn[s];
-  for (std::size_t p = 0; p < around.planes.count; ++p) {
-    const std::int32_t k = local.place[p];
-    if (!owns(s, k)) continue;
-    film[next] = local.clipper.clip(
-        around.planes, p,
-        {balls.place[s].radius, balls.radiusShift[s], around.to.radius[p], around.farHeight[p]});
-    note(s, k, film[next].empty ? -1 : next++);
+  for (std::size_t disc = 0; disc < local.lineDisc.size(); ++disc) {
+    const std::int32_t p = local.lineDisc[disc];
+    const bool any = local.edges.add(
+        local.lines[disc],
+        {balls.place[s].radius, balls.radiusShift[s], local.around.planes.height[p],
+         local.around.planes.heightShift[p], local.around.to.radius[p], local.around.farHeight[p]},
+        film[next]);
+    note(s, local.place[p], any ? next++ : -1);
+  }
+}
+
+/// Finds the lines on the discs that ball s owns.
+void PowerCells::Internals::findLines(std::int32_t s, Scratch& local) {
+  local.lineDisc.clear();
+  for (std::size_t p = 0; p < local.cutting.size(); ++p) {
+    if (!owns(s, local.place[p])) continue;
+    const std::size_t disc = local.lineDisc.size();
+    if (local.lines.size() == disc) local.lines.emplace_back();
+    if (local.lines[disc].find(local.around.planes, p, balls.place[s].radius))
+      local.lineDisc.push_back(static_cast<std::int32_t>(p));
+    else
+      note(s, local.place[p], -1);
   }
 }
 
