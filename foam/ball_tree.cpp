@@ -29,12 +29,46 @@ std::size_t wholeClusters(std::size_t count) {
   return (count + BallTree::kFan - 1) / BallTree::kFan * BallTree::kFan;
 }
 
+/// Bits of the boxes from place `k` on that meet a box.
+std::uint32_t meets(const BallTree::Boxes& boxes, std::size_t k, const BallTree::Box& box) {
+  LaneMask mask = LaneMask{} - 1;
+  for (int axis = 0; axis < 3; ++axis)
+    mask &=
+        (loadLanes(&boxes.low[axis][k]) < box.high[axis]) & (loadLanes(&boxes.high[axis][k]) > box.low[axis]);
+  return bitsOf(mask) & lanesBelow(boxes.count - k);
+}
+
+/// Adds to `to` those of boxes `begin` .. `end` - 1 that meet a box.
+void addMeeting(const BallTree::Boxes& from, std::size_t begin, std::size_t end, const BallTree::Box& box,
+                BallTree::Boxes& to) {
+  to.reserve(to.count + end - begin);
+  for (std::size_t k = begin; k < end; k += kLanes) {
+    const std::uint32_t bits = meets(from, k, box);
+    for (int axis = 0; axis < 3; ++axis) {
+      storeSelected(bits, loadLanes(&from.low[axis][k]), &to.low[axis][to.count]);
+      storeSelected(bits, loadLanes(&from.high[axis][k]), &to.high[axis][to.count]);
+    }
+    to.count += storeSelected(bits, &from.number[k], &to.number[to.count]);
+  }
+}
+
+/// The box around boxes `begin` .. `end` - 1.
+BallTree::Box boxAround(const BallTree::Boxes& boxes, std::size_t begin, std::size_t end) {
+  BallTree::Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = *std::min_element(&boxes.low[axis][begin], &boxes.low[axis][0] + end);
+    box.high[axis] = *std::max_element(&boxes.high[axis][begin], &boxes.high[axis][0] + end);
+  }
+  return box;
+}
+
 }  // namespace
 
-void BallTree::Level::resize(std::int32_t boxes) {
-  count = boxes;
-  for (auto& column : low) column.assign(wholeClusters(static_cast<std::size_t>(boxes)), kInfinity);
-  for (auto& column : high) column.assign(wholeClusters(static_cast<std::size_t>(boxes)), -kInfinity);
+void BallTree::Boxes::reserve(std::size_t boxes) {
+  const std::size_t room = wholeClusters(boxes) + kFan;
+  if (number.size() >= room) return;
+  number.resize(2 * room);
+  for (int axis = 0; axis < 3; ++axis) low[axis].resize(2 * room), high[axis].resize(2 * room);
 }
 
 void BallTree::build(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
@@ -72,16 +106,21 @@ void BallTree::sort(const std::vector<Eigen::Vector3d>& position, const std::vec
 
 void BallTree::boxClusters() {
   if (levels_.empty()) levels_.emplace_back();
-  levels_[0].resize(clusters());
+  Boxes& boxes = levels_[0];
+  boxes.reserve(static_cast<std::size_t>(clusters()));
+  boxes.count = static_cast<std::size_t>(clusters());
   const std::vector<double>* centre[3] = {&x_, &y_, &z_};
-  forEachIndex(static_cast<std::size_t>(clusters()), [&](std::size_t cluster) {
+  forEachIndex(boxes.count, [&](std::size_t cluster) {
     const std::size_t begin = cluster * kFan, end = std::min(begin + kFan, order_.size());
-    for (int axis = 0; axis < 3; ++axis)
+    boxes.number[cluster] = static_cast<std::int32_t>(cluster);
+    for (int axis = 0; axis < 3; ++axis) {
+      double low = kInfinity, high = -kInfinity;
       for (std::size_t s = begin; s < end; ++s) {
-        double &low = levels_[0].low[axis][cluster], &high = levels_[0].high[axis][cluster];
         low = std::min(low, (*centre[axis])[s] - far_[s]);
         high = std::max(high, (*centre[axis])[s] + far_[s]);
       }
+      boxes.low[axis][cluster] = low, boxes.high[axis][cluster] = high;
+    }
   });
   for (height_ = 1; levels_[height_ - 1].count > kFan; ++height_) {
     if (static_cast<std::int32_t>(levels_.size()) == height_) levels_.emplace_back();
@@ -89,66 +128,81 @@ void BallTree::boxClusters() {
   }
 }
 
-void BallTree::boxLevel(const Level& finer, Level& coarser) const {
-  coarser.resize((finer.count + kFan - 1) / kFan);
-  for (int axis = 0; axis < 3; ++axis)
-    for (std::int32_t box = 0; box < coarser.count; ++box) {
-      const auto begin = box * kFan;
-      coarser.low[axis][box] = *std::min_element(&finer.low[axis][begin], &finer.low[axis][begin] + kFan);
-      coarser.high[axis][box] = *std::max_element(&finer.high[axis][begin], &finer.high[axis][begin] + kFan);
-    }
-}
-
-/// Which boxes of a block of eight meet a box, as bits.
-std::uint32_t BallTree::meets(const Level& level, std::int32_t block, const double* low,
-                              const double* high) const {
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < kFan; k += kLanes) {
-    LaneMask mask = LaneMask{} - 1;
+void BallTree::boxLevel(const Boxes& finer, Boxes& coarser) const {
+  coarser.count = (finer.count + kFan - 1) / kFan;
+  coarser.reserve(coarser.count);
+  for (std::size_t k = 0; k < coarser.count; ++k) {
+    const Box box = boxAround(finer, k * kFan, std::min((k + 1) * kFan, finer.count));
     for (int axis = 0; axis < 3; ++axis)
-      mask &= (loadLanes(&level.low[axis][block * kFan + k]) < high[axis]) &
-              (loadLanes(&level.high[axis][block * kFan + k]) > low[axis]);
-    bits |= bitsOf(mask) << k;
+      coarser.low[axis][k] = box.low[axis], coarser.high[axis][k] = box.high[axis];
   }
-  return bits;
 }
 
-void BallTree::openCluster(std::int32_t cluster, Query& query) const {
-  double low[3], high[3];
-  for (int axis = 0; axis < 3; ++axis)
-    low[axis] = levels_[0].low[axis][cluster], high[axis] = levels_[0].high[axis][cluster];
-  query.clusters.clear();
-  query.stack.assign(1, 0);
-  // A block is told by its place in its level, and by the level.
+/// Finds the clusters that those of a group of eight may be near to, from the largest boxes down.
+void BallTree::openGroup(std::int32_t group, Query& query) const {
+  const Boxes& clusterBoxes = levels_[0];
+  const auto first = static_cast<std::size_t>(group) * kFan;
+  const Box box = boxAround(clusterBoxes, first, std::min(first + kFan, clusterBoxes.count));
+  query.group = group, query.around.count = 0;
   std::vector<std::int32_t>& stack = query.stack;
-  stack.push_back(height_ - 1);
+  stack.assign({0, height_ - 1});  // blocks of boxes, each by its number and level
   while (!stack.empty()) {
     const std::int32_t level = stack.back(), block = stack[stack.size() - 2];
     stack.resize(stack.size() - 2);
-    for (std::uint32_t bits = meets(levels_[level], block, low, high); bits != 0; bits &= bits - 1) {
-      const std::int32_t box = block * kFan + std::countr_zero(bits);
-      if (level == 0)
-        query.clusters.push_back(box);
-      else
-        stack.push_back(box), stack.push_back(level - 1);
+    const Boxes& boxes = levels_[level];
+    const std::size_t begin = static_cast<std::size_t>(block) * kFan,
+                      end = std::min(begin + kFan, boxes.count);
+    if (level == 0) {
+      addMeeting(boxes, begin, end, box, query.around);
+      continue;
     }
+    for (std::size_t k = begin; k < end; k += kLanes)
+      for (std::uint32_t bits = meets(boxes, k, box); bits != 0; bits &= bits - 1)
+        stack.push_back(static_cast<std::int32_t>(k) + std::countr_zero(bits)), stack.push_back(level - 1);
   }
 }
 
+void BallTree::openCluster(std::int32_t cluster, Query& query) const {
+  if (cluster / kFan != query.group) openGroup(cluster / kFan, query);
+  query.open.count = 0;
+  const auto k = static_cast<std::size_t>(cluster);
+  addMeeting(query.around, 0, query.around.count, boxAround(levels_[0], k, k + 1), query.open);
+}
+
+/// Lists the open clusters whose box is no farther from a ball's centre than it reaches: a third of them.
+std::size_t BallTree::findClosest(std::int32_t s, Query& query) const {
+  const double centre[3] = {x_[s], y_[s], z_[s]}, far2 = far_[s] * far_[s];
+  if (query.closest.size() < query.open.count + kFan) query.closest.resize(2 * (query.open.count + kFan));
+  std::size_t closest = 0;
+  for (std::size_t k = 0; k < query.open.count; k += kLanes) {
+    Lanes gap2 = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes below = loadLanes(&query.open.low[axis][k]) - centre[axis];
+      const Lanes above = centre[axis] - loadLanes(&query.open.high[axis][k]);
+      const Lanes out = below > above ? below : above, gap = out > 0 ? out : Lanes{};
+      gap2 += gap * gap;
+    }
+    const std::uint32_t bits = bitsOf(gap2 < far2) & lanesBelow(query.open.count - k);
+    closest += storeSelected(bits, &query.open.number[k], &query.closest[closest]);
+  }
+  return closest;
+}
+
 void BallTree::findNear(std::int32_t s, Query& query) const {
+  const std::size_t closest = findClosest(s, query);
+  if (query.near.size() < (closest + 1) * kFan) query.near.resize(2 * (closest + 1) * kFan);
   const double x = x_[s], y = y_[s], z = z_[s], far = far_[s];
-  query.near.resize(query.clusters.size() * kFan + kFan);
-  std::int32_t* end = query.near.data();
-  for (const std::int32_t cluster : query.clusters)
+  std::size_t found = 0;
+  for (std::size_t c = 0; c < closest; ++c)
     for (std::size_t k = 0; k < kFan; k += kLanes) {
-      const std::size_t t = static_cast<std::size_t>(cluster) * kFan + k;
+      const std::size_t t = static_cast<std::size_t>(query.closest[c]) * kFan + k;
       const Lanes dx = loadLanes(&x_[t]) - x, dy = loadLanes(&y_[t]) - y, dz = loadLanes(&z_[t]) - z,
                   near = loadLanes(&far_[t]) + far;
       std::uint32_t bits = bitsOf(dx * dx + dy * dy + dz * dz < near * near);
       if (const std::size_t own = static_cast<std::size_t>(s) - t; own < kLanes) bits &= ~(1u << own);
-      end += storeSelected(bits, &index_[t], end);
+      found += storeSelected(bits, &index_[t], &query.near[found]);
     }
-  query.near.resize(static_cast<std::size_t>(end - query.near.data()));
+  query.found = found;
 }
 
 }  // namespace spume::foam

@@ -16,10 +16,27 @@ class BallTree {
  public:
   static constexpr std::int32_t kFan = 8;  ///< balls in a cluster, and boxes in a larger one
 
+  struct Box {
+    double low[3], high[3];  ///< [m]
+  };
+  /// Boxes as columns, with what they are around.
+  struct Boxes {
+    std::size_t count = 0;
+    std::vector<double> low[3], high[3];  ///< [m]
+    std::vector<std::int32_t> number;
+
+    /// Makes room for whole clusters of boxes, and a block of lanes after them.
+    void reserve(std::size_t boxes);
+  };
+
   /// A thread's memory for queries.
   struct Query {
-    std::vector<std::int32_t> stack, clusters;
-    std::vector<std::int32_t> near;  ///< what it has found
+    std::vector<std::int32_t> stack;
+    std::int32_t group = -1;            ///< of clusters that was opened last
+    Boxes around, open;                 ///< clusters near that group, and near the open cluster
+    std::vector<std::int32_t> closest;  ///< of those, the ones that a ball may be near to
+    std::size_t found = 0;
+    std::vector<std::int32_t> near;  ///< what has been found, in its first `found` places
   };
 
   /// Sorts the balls at `position` [m] with `radius` [m, > 0]. Near is a distance below `reach` (r_i + r_j).
@@ -31,20 +48,14 @@ class BallTree {
   const std::vector<std::int32_t>& order() const { return order_; }
   std::int32_t clusters() const { return (size() + kFan - 1) / kFan; }
 
-  /// Finds the clusters that balls of `cluster` may be near to.
+  /// Finds the clusters that balls of `cluster` may be near to; quick if one of the same eight was last. A
+  /// new tree needs a new Query.
   void openCluster(std::int32_t cluster, Query& query) const;
   /// Lists in `query.near` the input indices of all balls near that at place `s`, itself left out, in the
   /// order of the tree; its cluster must be open.
   void findNear(std::int32_t s, Query& query) const;
 
  private:
-  /// Boxes of one level as columns, padded to whole blocks with boxes that meet nothing.
-  struct Level {
-    std::int32_t count = 0;
-    std::vector<double> low[3], high[3];  ///< [m]
-
-    void resize(std::int32_t boxes);
-  };
   struct SortKey {
     std::uint64_t curve;
     std::int32_t index;
@@ -55,14 +66,15 @@ class BallTree {
 
   void sort(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
   void boxClusters();
-  void boxLevel(const Level& finer, Level& coarser) const;
-  std::uint32_t meets(const Level& level, std::int32_t block, const double* low, const double* high) const;
+  void boxLevel(const Boxes& finer, Boxes& coarser) const;
+  void openGroup(std::int32_t group, Query& query) const;
+  std::size_t findClosest(std::int32_t s, Query& query) const;
 
   std::vector<SortKey> keys_;
   std::vector<std::int32_t> order_;      ///< padded nowhere: as long as there are balls
   std::vector<std::int32_t> index_;      ///< order_, padded to whole clusters
   std::vector<double> x_, y_, z_, far_;  ///< centres and `reach` r [m], padded to whole clusters
-  std::vector<Level> levels_;            ///< from the clusters' boxes up
+  std::vector<Boxes> levels_;            ///< from the clusters' boxes up
   std::int32_t height_ = 0;              ///< levels in use
 };
 

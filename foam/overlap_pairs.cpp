@@ -14,6 +14,7 @@ namespace spume::foam {
 namespace {
 
 constexpr std::int32_t kClusterGrain = 16;  ///< clusters per parallel task
+constexpr std::size_t kUsualRow = 16;       ///< candidates of a bubble in a dense foam
 
 }  // namespace
 
@@ -54,9 +55,11 @@ void OverlapPairs::findRows() {
   rowStart_.resize(static_cast<std::size_t>(size()) + 1),
       upperStart_.resize(static_cast<std::size_t>(size()));
   pieces_.resize(static_cast<std::size_t>(tree_.clusters() + kClusterGrain - 1) / kClusterGrain);
-  for (Finder& finder : finders_) finder.candidates.clear();
+  for (Finder& finder : finders_) finder.candidates.clear(), finder.query.group = -1;
   tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
     Finder& finder = finders_.local();
+    finder.candidates.reserve(static_cast<std::size_t>(size()) *
+                              kUsualRow);  // untouched memory costs nothing
     pieces_[piece] = {&finder, finder.candidates.size()};
     const auto first = static_cast<std::int32_t>(piece) * kClusterGrain;
     for (std::int32_t c = first; c < std::min(first + kClusterGrain, tree_.clusters()); ++c) {
@@ -69,11 +72,10 @@ void OverlapPairs::findRows() {
 
 void OverlapPairs::findRow(std::int32_t s, Finder& finder) {
   tree_.findNear(s, finder.query);
-  std::vector<std::int32_t>& near = finder.query.near;
-  sortShort(near, finder.sorted);
+  sortShort(finder.query.near, finder.query.found, finder.sorted);
   for (const std::int32_t i : finder.sorted) finder.candidates.push_back(rank_[i]);
   const auto upper = std::lower_bound(finder.sorted.begin(), finder.sorted.end(), order()[s]);
-  rowStart_[s + 1] = static_cast<std::int32_t>(near.size());
+  rowStart_[s + 1] = static_cast<std::int32_t>(finder.sorted.size());
   upperStart_[s] = static_cast<std::int32_t>(upper - finder.sorted.begin());
 }
 
