@@ -6,6 +6,7 @@
 
 #include "foam/disc_lines.h"
 #include "foam/radical_plane.h"
+#include "foam/raw_buffer.h"
 
 namespace spume::foam {
 
@@ -15,10 +16,9 @@ struct RankedBalls {
   struct Place {
     double x, y, z, radius;  ///< the centre and the radius that decides ties [m]
   };
-  std::vector<Place> place;
-  std::vector<double> radiusShift, weightShift;  ///< as in TieBrokenBall
+  RawBuffer<Place> place;
+  RawBuffer<double> radiusShift, weightShift;  ///< as in TieBrokenBall
 
-  std::size_t size() const { return place.size(); }
   void resize(std::size_t balls) {
     place.resize(balls), radiusShift.resize(balls), weightShift.resize(balls);
   }

@@ -14,6 +14,7 @@
 #include "foam/edge_batch.h"
 #include "foam/neighbour_planes.h"
 #include "foam/overlap_pairs.h"
+#include "foam/raw_buffer.h"
 
 namespace spume::foam {
 
@@ -53,14 +54,14 @@ struct PowerCells::Internals {
 
   OverlapPairs near;
   RankedBalls balls;
-  std::vector<std::uint8_t> hidden;
-  std::vector<std::int32_t> overlap;  ///< by slot: ranks that overlap now, from each row's beginning on
-  std::vector<std::int32_t> overlaps, lowerOverlaps;  ///< how many there are; of lower input index
-  std::vector<std::int32_t> firstOwn;                 ///< in `film`, of each bubble's discs
-  std::vector<FilmShape> film;       ///< of every overlap, in the order of owners; near is the owner's side
-  std::vector<std::int32_t> filmOf;  ///< by slot: twice the place in `film`, odd for its owner, or -1
-  std::vector<std::int32_t> firstPair;  ///< by input index: first overlap with this bubble as i
-  std::vector<std::int32_t> firstFilm;  ///< by input index: first film with this bubble as i
+  RawBuffer<std::uint8_t> hidden;
+  RawBuffer<std::int32_t> overlap;  ///< by slot: ranks that overlap now, from each row's beginning on
+  RawBuffer<std::int32_t> overlaps, lowerOverlaps;  ///< how many there are; of lower input index
+  RawBuffer<std::int32_t> firstOwn;                 ///< in `film`, of each bubble's discs
+  RawBuffer<FilmShape> film;          ///< of every overlap, in the order of owners; near is the owner's side
+  RawBuffer<std::int32_t> filmOf;     ///< by slot: twice the place in `film`, odd for its owner, or -1
+  RawBuffer<std::int32_t> firstPair;  ///< by input index: first overlap with this bubble as i
+  RawBuffer<std::int32_t> firstFilm;  ///< by input index: first film with this bubble as i
   tbb::enumerable_thread_specific<Scratch> scratch;
 
   std::int32_t size() const { return near.size(); }
@@ -135,7 +136,7 @@ void PowerCells::Internals::relateRow(std::int32_t s, Scratch& local) {
     own += std::popcount(touching & (bitsOf(radius < other) | (bitsOf(radius == other) & ~below)));
     found += storeSelected(touching, candidate + k, &local.row[found]);
   }
-  std::copy_n(local.row.begin(), found, overlap.begin() + rowStart(s));
+  std::copy_n(local.row.begin(), found, overlap.data() + rowStart(s));
   overlaps[s] = static_cast<std::int32_t>(found), lowerOverlaps[s] = static_cast<std::int32_t>(foundLower);
   firstOwn[s + 1] = own;
 }
@@ -207,7 +208,8 @@ void PowerCells::Internals::note(std::int32_t s, std::int32_t k, std::int32_t pl
 
 /// Numbers overlapping pairs and films by (i, j).
 void PowerCells::Internals::numberPairs(FoamTopology& out) {
-  firstPair.resize(static_cast<std::size_t>(size()) + 1), firstFilm.resize(firstPair.size());
+  firstPair.resize(static_cast<std::size_t>(size()) + 1);
+  firstFilm.resize(static_cast<std::size_t>(size()) + 1);
   firstPair[0] = firstFilm[0] = 0;
   forEachBubble(size(), [&](std::int32_t s) {
     std::int32_t films = 0;
@@ -217,7 +219,7 @@ void PowerCells::Internals::numberPairs(FoamTopology& out) {
   });
   for (std::int32_t i = 0; i < size(); ++i)
     firstPair[i + 1] += firstPair[i], firstFilm[i + 1] += firstFilm[i];
-  out.overlaps.resize(firstPair.back()), out.films.resize(firstFilm.back());
+  out.overlaps.resize(firstPair[size()]), out.films.resize(firstFilm[size()]);
 }
 
 void PowerCells::Internals::measureCells(FoamTopology& out) {
