@@ -126,7 +126,10 @@ void InflatedCell::listNeighbours() {
 bool InflatedCell::sharesFace(std::size_t k) {
   if (left_[k].cornerWithin) return true;
   if (!hasPlanes_) collectPlanes();
-  return clipper_.leavesAny(planes_, k, reach_);
+  if (!disc_.find(planes_, k, reach_)) return false;
+  disc_.scale();
+  edges_.count = 0;
+  return disc_.clip(edges_).any;
 }
 
 /// The planes of all faces that are left, for the discs.

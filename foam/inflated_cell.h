@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "foam/convex_cell.h"
-#include "foam/disc_clipper.h"
+#include "foam/disc_lines.h"
 #include "foam/site_grid.h"
 
 namespace spume::foam {
@@ -52,7 +52,8 @@ class InflatedCell {
   std::vector<std::int32_t> unsure_;
   CuttingPlanes planes_;  ///< of the neighbours, in their order, once one is asked for
   bool hasPlanes_ = false;
-  DiscClipper clipper_;
+  DiscLines disc_;
+  FilmEdges edges_;  ///< of that disc
 };
 
 }  // namespace spume::foam

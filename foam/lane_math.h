@@ -1,5 +1,10 @@
 #pragma once
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -43,9 +48,41 @@ inline Lanes squareRoot(const Lanes& x) {
 
 /// Bit k is set if lane k is.
 inline std::uint32_t bitsOf(const LaneMask& mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
+#else
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < kLanes; ++k) bits |= static_cast<std::uint32_t>(mask[k] & (1 << k));
   return bits;
+#endif
+}
+
+/// The bits of the first `count` lanes.
+inline std::uint32_t lanesBelow(std::size_t count) {
+  return count < kLanes ? (1u << count) - 1 : (1u << kLanes) - 1;
+}
+
+/// Writes those of kLanes values whose bit is set to `to`, closed up, and returns how many; kLanes values
+/// may be overwritten there.
+inline std::size_t storeSelected(std::uint32_t bits, const Lanes& values, double* to) {
+#if defined(__AVX512F__)
+  _mm512_storeu_pd(to,
+                   _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), reinterpret_cast<__m512d>(values)));
+#else
+  for (std::uint32_t left = bits; left != 0; left &= left - 1) *to++ = values[std::countr_zero(left)];
+#endif
+  return static_cast<std::size_t>(std::popcount(bits));
+}
+
+inline std::size_t storeSelected(std::uint32_t bits, const std::int32_t* values, std::int32_t* to) {
+#if defined(__AVX512VL__)
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), all));
+#else
+  for (std::uint32_t left = bits; left != 0; left &= left - 1) *to++ = values[std::countr_zero(left)];
+#endif
+  return static_cast<std::size_t>(std::popcount(bits));
 }
 
 inline double sumOf(const Lanes& x) {

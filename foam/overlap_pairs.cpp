@@ -1,17 +1,20 @@
 #include "foam/overlap_pairs.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "foam/pair_sweep.h"
 #include "foam/parallel.h"
-#include "foam/space_order.h"
+#include "foam/short_sort.h"
 
 namespace spume::foam {
 namespace {
 
-constexpr std::uint64_t kRankBits = 0xffffffff;  ///< of an entry; the others are the input index
+constexpr std::int32_t kClusterGrain = 16;  ///< clusters per parallel task
+constexpr std::size_t kUsualRow = 16;       ///< candidates of a bubble in a dense foam
 
 }  // namespace
 
@@ -19,11 +22,11 @@ bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const st
   if (stillValid(position, radius)) return false;
   builtPosition_ = position;
   builtRadius_ = radius;
-  sortInSpace(position, order_);
-  rank_.resize(order_.size());
-  forEachIndex(order_.size(), [&](std::size_t s) { rank_[order_[s]] = static_cast<std::int32_t>(s); });
-  fillRows(PairSweep(position, radius, 1 + kSkin).find());
-  findMirrors();
+  tree_.build(position, radius, 1 + kSkin);
+  rank_.resize(radius.size());
+  forEachIndex(radius.size(), [&](std::size_t s) { rank_[order()[s]] = static_cast<std::int32_t>(s); });
+  findRows();
+  joinRows();
   return true;
 }
 
@@ -47,38 +50,47 @@ bool OverlapPairs::stillValid(const std::vector<Eigen::Vector3d>& position,
                       static_cast<double>(n));
 }
 
-/// Turns the pairs, each found once, into rows that hold each twice, sorted by input index. One thread deals
-/// them out: several would fight over the ends of the rows.
-void OverlapPairs::fillRows(const std::vector<PairSweep::Pairs>& found) {
-  const std::size_t n = order_.size();
-  rowStart_.assign(n + 1, 0);
-  for (const auto& pairs : found)
-    for (const auto& [i, j] : pairs) ++rowStart_[rank_[i] + 1], ++rowStart_[rank_[j] + 1];
-  for (std::size_t s = 0; s < n; ++s) rowStart_[s + 1] += rowStart_[s];
-  next_.assign(rowStart_.begin(), rowStart_.end() - 1);
-  entry_.resize(rowStart_.back()), candidate_.resize(rowStart_.back());
-  const auto entryOf = [&](std::int32_t i) {
-    return static_cast<std::uint64_t>(i) << 32 | static_cast<std::uint32_t>(rank_[i]);
-  };
-  for (const auto& pairs : found)
-    for (const auto& [i, j] : pairs) {
-      const std::uint64_t forI = entryOf(j), forJ = entryOf(i);
-      entry_[next_[forJ & kRankBits]++] = forI, entry_[next_[forI & kRankBits]++] = forJ;
+/// Each bubble finds its own row: each pair is tested twice, but no thread waits for another.
+void OverlapPairs::findRows() {
+  rowStart_.resize(static_cast<std::size_t>(size()) + 1),
+      upperStart_.resize(static_cast<std::size_t>(size()));
+  pieces_.resize(static_cast<std::size_t>(tree_.clusters() + kClusterGrain - 1) / kClusterGrain);
+  for (Finder& finder : finders_) finder.candidates.clear(), finder.query.group = -1;
+  tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
+    Finder& finder = finders_.local();
+    finder.candidates.reserve(static_cast<std::size_t>(size()) *
+                              kUsualRow);  // untouched memory costs nothing
+    pieces_[piece] = {&finder, finder.candidates.size()};
+    const auto first = static_cast<std::int32_t>(piece) * kClusterGrain;
+    for (std::int32_t c = first; c < std::min(first + kClusterGrain, tree_.clusters()); ++c) {
+      tree_.openCluster(c, finder.query);
+      for (std::int32_t s = c * BallTree::kFan; s < std::min((c + 1) * BallTree::kFan, size()); ++s)
+        findRow(s, finder);
     }
-  forEachIndex(n, [&](std::size_t s) {
-    std::sort(entry_.begin() + rowStart_[s], entry_.begin() + rowStart_[s + 1]);
-    for (std::int32_t slot = rowStart_[s]; slot < rowStart_[s + 1]; ++slot)
-      candidate_[slot] = static_cast<std::int32_t>(entry_[slot] & kRankBits);
   });
 }
 
-/// Bubbles in input order meet each row's slots in their order.
-void OverlapPairs::findMirrors() {
-  mirror_.resize(candidate_.size());
-  next_.assign(rowStart_.begin(), rowStart_.end() - 1);
-  for (const std::int32_t s : rank_)
-    for (std::int32_t slot = rowStart_[s]; slot < rowStart_[s + 1]; ++slot)
-      mirror_[slot] = next_[candidate_[slot]]++;
+void OverlapPairs::findRow(std::int32_t s, Finder& finder) {
+  tree_.findNear(s, finder.query);
+  sortShort(finder.query.near, finder.query.found, finder.sorted);
+  for (const std::int32_t i : finder.sorted) finder.candidates.push_back(rank_[i]);
+  const auto upper = std::lower_bound(finder.sorted.begin(), finder.sorted.end(), order()[s]);
+  rowStart_[s + 1] = static_cast<std::int32_t>(finder.sorted.size());
+  upperStart_[s] = static_cast<std::int32_t>(upper - finder.sorted.begin());
+}
+
+/// Puts the rows, found by several threads, one after the other.
+void OverlapPairs::joinRows() {
+  rowStart_[0] = 0;
+  for (std::int32_t s = 0; s < size(); ++s) rowStart_[s + 1] += rowStart_[s], upperStart_[s] += rowStart_[s];
+  candidate_.resize(static_cast<std::size_t>(rowStart_.back()) + kLanes);
+  tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
+    const std::int32_t first = static_cast<std::int32_t>(piece) * kClusterGrain * BallTree::kFan;
+    const std::int32_t last = std::min(first + kClusterGrain * BallTree::kFan, size());
+    const auto from =
+        pieces_[piece].finder->candidates.begin() + static_cast<std::ptrdiff_t>(pieces_[piece].begin);
+    std::copy_n(from, rowStart_[last] - rowStart_[first], candidate_.begin() + rowStart_[first]);
+  });
 }
 
 }  // namespace spume::foam

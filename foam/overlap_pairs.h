@@ -1,21 +1,23 @@
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
-#include "foam/pair_sweep.h"
+#include "foam/ball_tree.h"
 
 namespace spume::foam {
 
 /// For every bubble the others near enough to overlap it now or soon: a Verlet list. Two bubbles are
 /// candidates when their distance is below (1 + kSkin)(r_i + r_j) at the time of building, so the list holds
-/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. `pair_sweep` finds
+/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. `ball_tree` finds
 /// the pairs.
 ///
-/// Bubbles are numbered here by *rank*, along a curve through space: neighbours are near in memory. Rows
-/// list candidates by input index, so that what is summed along a row does not depend on when the list was
-/// built.
+/// Bubbles are numbered here by *rank*, by size and along a curve through space: neighbours are near in
+/// memory. Rows list candidates by input index, so that what is summed along a row does not depend on when
+/// the list was built.
 class OverlapPairs {
  public:
   /// Free motion before a rebuild, in radii: larger means fewer rebuilds but longer rows (they grow with its
@@ -27,27 +29,40 @@ class OverlapPairs {
   /// not.
   bool update(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
 
-  int size() const { return static_cast<int>(order_.size()); }
+  int size() const { return static_cast<int>(tree_.size()); }
   /// Input index of each rank, and rank of each input index.
-  const std::vector<std::int32_t>& order() const { return order_; }
+  const std::vector<std::int32_t>& order() const { return tree_.order(); }
   const std::vector<std::int32_t>& rank() const { return rank_; }
   /// The candidates of rank s are slots rowStart()[s] .. rowStart()[s + 1] - 1.
   const std::vector<std::int32_t>& rowStart() const { return rowStart_; }
-  /// Rank of the candidate in each slot.
+  /// The slot from which on the candidates of each rank have higher input indices than its bubble.
+  const std::vector<std::int32_t>& upperStart() const { return upperStart_; }
+  /// Rank of the candidate in each slot; padded for whole lanes.
   const std::vector<std::int32_t>& candidate() const { return candidate_; }
-  /// The slot that holds the same pair seen from the other bubble.
-  const std::vector<std::int32_t>& mirror() const { return mirror_; }
 
  private:
+  /// A thread's memory, and the rows it has found.
+  struct Finder {
+    BallTree::Query query;
+    std::vector<std::int32_t> sorted, candidates;
+  };
+  /// Where the rows of one parallel task are.
+  struct Piece {
+    const Finder* finder = nullptr;
+    std::size_t begin = 0;
+  };
+
   bool stillValid(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) const;
-  void fillRows(const std::vector<PairSweep::Pairs>& found);
-  void findMirrors();
+  void findRows();
+  void findRow(std::int32_t s, Finder& finder);
+  void joinRows();
 
   std::vector<Eigen::Vector3d> builtPosition_;  ///< by input index
   std::vector<double> builtRadius_;
-  std::vector<std::int32_t> order_, rank_, rowStart_, candidate_, mirror_;
-  std::vector<std::uint64_t> entry_;  ///< input index and rank of each slot's candidate
-  std::vector<std::int32_t> next_;    ///< free slot of each row, while they fill
+  BallTree tree_;
+  std::vector<std::int32_t> rank_, rowStart_, upperStart_, candidate_;
+  tbb::enumerable_thread_specific<Finder> finders_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace spume::foam

@@ -1,0 +1,208 @@
+#include "foam/ball_tree.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "foam/cell_hash.h"
+#include "foam/parallel.h"
+
+namespace spume::foam {
+
+namespace {
+
+constexpr int kClasses = 64;        ///< sizes told apart: 2^64 from smallest to largest
+constexpr double kNowhere = 1e200;  ///< its square is infinite: nothing reaches it
+constexpr auto kInfinity = std::numeric_limits<double>::infinity();
+static_assert(BallTree::kFan % kLanes == 0);
+
+Eigen::Vector3d lowCorner(const std::vector<Eigen::Vector3d>& position) {
+  return reduceIndices(
+      position.size(), position[0], [&](std::size_t i) { return position[i]; },
+      [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cwiseMin(b).eval(); });
+}
+
+std::size_t wholeClusters(std::size_t count) {
+  return (count + BallTree::kFan - 1) / BallTree::kFan * BallTree::kFan;
+}
+
+/// Bits of the boxes from place `k` on that meet a box.
+std::uint32_t meets(const BallTree::Boxes& boxes, std::size_t k, const BallTree::Box& box) {
+  LaneMask mask = LaneMask{} - 1;
+  for (int axis = 0; axis < 3; ++axis)
+    mask &=
+        (loadLanes(&boxes.low[axis][k]) < box.high[axis]) & (loadLanes(&boxes.high[axis][k]) > box.low[axis]);
+  return bitsOf(mask) & lanesBelow(boxes.count - k);
+}
+
+/// Adds to `to` those of boxes `begin` .. `end` - 1 that meet a box.
+void addMeeting(const BallTree::Boxes& from, std::size_t begin, std::size_t end, const BallTree::Box& box,
+                BallTree::Boxes& to) {
+  to.reserve(to.count + end - begin);
+  for (std::size_t k = begin; k < end; k += kLanes) {
+    const std::uint32_t bits = meets(from, k, box);
+    for (int axis = 0; axis < 3; ++axis) {
+      storeSelected(bits, loadLanes(&from.low[axis][k]), &to.low[axis][to.count]);
+      storeSelected(bits, loadLanes(&from.high[axis][k]), &to.high[axis][to.count]);
+    }
+    to.count += storeSelected(bits, &from.number[k], &to.number[to.count]);
+  }
+}
+
+/// The box around boxes `begin` .. `end` - 1.
+BallTree::Box boxAround(const BallTree::Boxes& boxes, std::size_t begin, std::size_t end) {
+  BallTree::Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = *std::min_element(&boxes.low[axis][begin], &boxes.low[axis][0] + end);
+    box.high[axis] = *std::max_element(&boxes.high[axis][begin], &boxes.high[axis][0] + end);
+  }
+  return box;
+}
+
+}  // namespace
+
+void BallTree::Boxes::reserve(std::size_t boxes) {
+  const std::size_t room = wholeClusters(boxes) + kFan;
+  if (number.size() >= room) return;
+  number.resize(2 * room);
+  for (int axis = 0; axis < 3; ++axis) low[axis].resize(2 * room), high[axis].resize(2 * room);
+}
+
+void BallTree::build(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
+                     double reach) {
+  const std::size_t n = radius.size(), padded = wholeClusters(n);
+  order_.resize(n), index_.resize(padded);
+  height_ = 0;
+  if (n == 0) return;
+  sort(position, radius);
+  for (auto* column : {&x_, &y_, &z_, &far_}) column->resize(padded);
+  forEachIndex(n, [&](std::size_t s) {
+    const std::int32_t i = order_[s] = index_[s] = keys_[s].index;
+    x_[s] = position[i].x(), y_[s] = position[i].y(), z_[s] = position[i].z(), far_[s] = reach * radius[i];
+  });
+  for (std::size_t s = n; s < padded; ++s) x_[s] = y_[s] = z_[s] = kNowhere, far_[s] = 0, index_[s] = 0;
+  boxClusters();
+}
+
+/// Cells of the curve are as wide as the balls of the class. Coordinates wrap far out, which costs time but
+/// finds the same.
+void BallTree::sort(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) {
+  const Eigen::Vector3d low = lowCorner(position);
+  const int top = std::ilogb(*std::max_element(radius.begin(), radius.end()));
+  keys_.resize(radius.size());
+  forEachIndex(radius.size(), [&](std::size_t i) {
+    const int octave = std::ilogb(radius[i]);
+    const auto number = static_cast<std::uint64_t>(std::min(top - octave, kClasses - 1));
+    std::uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      code |= spreadCellBits(cellCoordinate(position[i][axis] - low[axis], std::ldexp(1.0, octave))) << axis;
+    keys_[i] = {number << (3 * kCellAxisBits) | code, static_cast<std::int32_t>(i)};
+  });
+  tbb::parallel_sort(keys_.begin(), keys_.end());
+}
+
+void BallTree::boxClusters() {
+  if (levels_.empty()) levels_.emplace_back();
+  Boxes& boxes = levels_[0];
+  boxes.reserve(static_cast<std::size_t>(clusters()));
+  boxes.count = static_cast<std::size_t>(clusters());
+  const std::vector<double>* centre[3] = {&x_, &y_, &z_};
+  forEachIndex(boxes.count, [&](std::size_t cluster) {
+    const std::size_t begin = cluster * kFan, end = std::min(begin + kFan, order_.size());
+    boxes.number[cluster] = static_cast<std::int32_t>(cluster);
+    for (int axis = 0; axis < 3; ++axis) {
+      double low = kInfinity, high = -kInfinity;
+      for (std::size_t s = begin; s < end; ++s) {
+        low = std::min(low, (*centre[axis])[s] - far_[s]);
+        high = std::max(high, (*centre[axis])[s] + far_[s]);
+      }
+      boxes.low[axis][cluster] = low, boxes.high[axis][cluster] = high;
+    }
+  });
+  for (height_ = 1; levels_[height_ - 1].count > kFan; ++height_) {
+    if (static_cast<std::int32_t>(levels_.size()) == height_) levels_.emplace_back();
+    boxLevel(levels_[height_ - 1], levels_[height_]);
+  }
+}
+
+void BallTree::boxLevel(const Boxes& finer, Boxes& coarser) const {
+  coarser.count = (finer.count + kFan - 1) / kFan;
+  coarser.reserve(coarser.count);
+  for (std::size_t k = 0; k < coarser.count; ++k) {
+    const Box box = boxAround(finer, k * kFan, std::min((k + 1) * kFan, finer.count));
+    for (int axis = 0; axis < 3; ++axis)
+      coarser.low[axis][k] = box.low[axis], coarser.high[axis][k] = box.high[axis];
+  }
+}
+
+/// Finds the clusters that those of a group of eight may be near to, from the largest boxes down.
+void BallTree::openGroup(std::int32_t group, Query& query) const {
+  const Boxes& clusterBoxes = levels_[0];
+  const auto first = static_cast<std::size_t>(group) * kFan;
+  const Box box = boxAround(clusterBoxes, first, std::min(first + kFan, clusterBoxes.count));
+  query.group = group, query.around.count = 0;
+  std::vector<std::int32_t>& stack = query.stack;
+  stack.assign({0, height_ - 1});  // blocks of boxes, each by its number and level
+  while (!stack.empty()) {
+    const std::int32_t level = stack.back(), block = stack[stack.size() - 2];
+    stack.resize(stack.size() - 2);
+    const Boxes& boxes = levels_[level];
+    const std::size_t begin = static_cast<std::size_t>(block) * kFan,
+                      end = std::min(begin + kFan, boxes.count);
+    if (level == 0) {
+      addMeeting(boxes, begin, end, box, query.around);
+      continue;
+    }
+    for (std::size_t k = begin; k < end; k += kLanes)
+      for (std::uint32_t bits = meets(boxes, k, box); bits != 0; bits &= bits - 1)
+        stack.push_back(static_cast<std::int32_t>(k) + std::countr_zero(bits)), stack.push_back(level - 1);
+  }
+}
+
+void BallTree::openCluster(std::int32_t cluster, Query& query) const {
+  if (cluster / kFan != query.group) openGroup(cluster / kFan, query);
+  query.open.count = 0;
+  const auto k = static_cast<std::size_t>(cluster);
+  addMeeting(query.around, 0, query.around.count, boxAround(levels_[0], k, k + 1), query.open);
+}
+
+/// Lists the open clusters whose box is no farther from a ball's centre than it reaches: a third of them.
+std::size_t BallTree::findClosest(std::int32_t s, Query& query) const {
+  const double centre[3] = {x_[s], y_[s], z_[s]}, far2 = far_[s] * far_[s];
+  if (query.closest.size() < query.open.count + kFan) query.closest.resize(2 * (query.open.count + kFan));
+  std::size_t closest = 0;
+  for (std::size_t k = 0; k < query.open.count; k += kLanes) {
+    Lanes gap2 = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes below = loadLanes(&query.open.low[axis][k]) - centre[axis];
+      const Lanes above = centre[axis] - loadLanes(&query.open.high[axis][k]);
+      const Lanes out = below > above ? below : above, gap = out > 0 ? out : Lanes{};
+      gap2 += gap * gap;
+    }
+    const std::uint32_t bits = bitsOf(gap2 < far2) & lanesBelow(query.open.count - k);
+    closest += storeSelected(bits, &query.open.number[k], &query.closest[closest]);
+  }
+  return closest;
+}
+
+void BallTree::findNear(std::int32_t s, Query& query) const {
+  const std::size_t closest = findClosest(s, query);
+  if (query.near.size() < (closest + 1) * kFan) query.near.resize(2 * (closest + 1) * kFan);
+  const double x = x_[s], y = y_[s], z = z_[s], far = far_[s];
+  std::size_t found = 0;
+  for (std::size_t c = 0; c < closest; ++c)
+    for (std::size_t k = 0; k < kFan; k += kLanes) {
+      const std::size_t t = static_cast<std::size_t>(query.closest[c]) * kFan + k;
+      const Lanes dx = loadLanes(&x_[t]) - x, dy = loadLanes(&y_[t]) - y, dz = loadLanes(&z_[t]) - z,
+                  near = loadLanes(&far_[t]) + far;
+      std::uint32_t bits = bitsOf(dx * dx + dy * dy + dz * dz < near * near);
+      if (const std::size_t own = static_cast<std::size_t>(s) - t; own < kLanes) bits &= ~(1u << own);
+      found += storeSelected(bits, &index_[t], &query.near[found]);
+    }
+  query.found = found;
+}
+
+}  // namespace spume::foam

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "foam/lane_math.h"
+
+namespace spume::foam {
+
+/// Balls in a tree of boxes, to find those near a ball (performance, "Foam geometry"): sorted by size, a
+/// class for each octave of radius, and within a class along a Morton curve whose cells are as large as the
+/// balls, so that eight in a row lie together whatever the mix of sizes; then boxes around each eight of
+/// them, each eight boxes, and so on. Memory is kept from build to build.
+class BallTree {
+ public:
+  static constexpr std::int32_t kFan = 8;  ///< balls in a cluster, and boxes in a larger one
+
+  struct Box {
+    double low[3], high[3];  ///< [m]
+  };
+  /// Boxes as columns, with what they are around.
+  struct Boxes {
+    std::size_t count = 0;
+    std::vector<double> low[3], high[3];  ///< [m]
+    std::vector<std::int32_t> number;
+
+    /// Makes room for whole clusters of boxes, and a block of lanes after them.
+    void reserve(std::size_t boxes);
+  };
+
+  /// A thread's memory for queries.
+  struct Query {
+    std::vector<std::int32_t> stack;
+    std::int32_t group = -1;            ///< of clusters that was opened last
+    Boxes around, open;                 ///< clusters near that group, and near the open cluster
+    std::vector<std::int32_t> closest;  ///< of those, the ones that a ball may be near to
+    std::size_t found = 0;
+    std::vector<std::int32_t> near;  ///< what has been found, in its first `found` places
+  };
+
+  /// Sorts the balls at `position` [m] with `radius` [m, > 0]. Near is a distance below `reach` (r_i + r_j).
+  /// O(n log n).
+  void build(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius, double reach);
+
+  std::int32_t size() const { return static_cast<std::int32_t>(order_.size()); }
+  /// Input index of each place in the tree.
+  const std::vector<std::int32_t>& order() const { return order_; }
+  std::int32_t clusters() const { return (size() + kFan - 1) / kFan; }
+
+  /// Finds the clusters that balls of `cluster` may be near to; quick if one of the same eight was last. A
+  /// new tree needs a new Query.
+  void openCluster(std::int32_t cluster, Query& query) const;
+  /// Lists in `query.near` the input indices of all balls near that at place `s`, itself left out, in the
+  /// order of the tree; its cluster must be open.
+  void findNear(std::int32_t s, Query& query) const;
+
+ private:
+  struct SortKey {
+    std::uint64_t curve;
+    std::int32_t index;
+    bool operator<(const SortKey& other) const {
+      return curve != other.curve ? curve < other.curve : index < other.index;
+    }
+  };
+
+  void sort(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
+  void boxClusters();
+  void boxLevel(const Boxes& finer, Boxes& coarser) const;
+  void openGroup(std::int32_t group, Query& query) const;
+  std::size_t findClosest(std::int32_t s, Query& query) const;
+
+  std::vector<SortKey> keys_;
+  std::vector<std::int32_t> order_;      ///< padded nowhere: as long as there are balls
+  std::vector<std::int32_t> index_;      ///< order_, padded to whole clusters
+  std::vector<double> x_, y_, z_, far_;  ///< centres and `reach` r [m], padded to whole clusters
+  std::vector<Boxes> levels_;            ///< from the clusters' boxes up
+  std::int32_t height_ = 0;              ///< levels in use
+};
+
+}  // namespace spume::foam
