@@ -1,6 +1,6 @@
 #pragma once
 
-#if defined(__AVX512F__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -50,6 +50,10 @@ inline Lanes squareRoot(const Lanes& x) {
 inline std::uint32_t bitsOf(const LaneMask& mask) {
 #if defined(__AVX512DQ__)
   return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
+#elif defined(__AVX__) && !defined(__AVX512F__)
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#elif defined(__SSE2__) && !defined(__AVX__)
+  return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
 #else
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < kLanes; ++k) bits |= static_cast<std::uint32_t>(mask[k] & (1 << k));
