@@ -152,10 +152,10 @@ void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
     noteVolumes(topology, next);
     const std::vector<std::int32_t> off = cellsOff(next, params.volumeTolerance);
     if (off.empty() || pass == kVolumePasses) return;
-    if (static_cast<double>(off.size()) <= kFewCells * static_cast<double>(next.size()))
-      patch.settle(params, off, neighbours, walls, next);
-    else
+    if (static_cast<double>(off.size()) > kFewCells * static_cast<double>(next.size()))
       projectVolumes(params, topology, {}, next);
+    else if (patch.settle(params, walls, topology, neighbours, next))
+      return;
   }
 }
 

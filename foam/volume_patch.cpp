@@ -1,33 +1,38 @@
 #include "foam/volume_patch.h"
 
+#include <functional>
+
+#include "foam/parallel.h"
 #include "foam/volume_correction.h"
 
 namespace spume::foam {
 namespace {
 
 /// Newton steps at most: a cell covered all but wholly grows by a quarter in each.
-constexpr int kPasses = 10;
-/// Patches at most, each around the cells that the last one has disturbed. These are few and hardly off.
-constexpr int kPatches = 4;
+constexpr int kSteps = 16;
+/// Growth of a ball that is looked after: what less cuts off a ball it has not touched before, a cap as high as
+/// the growth, is 1e-3 of its volume at most.
+constexpr double kGrown = 0.02;
 
 }  // namespace
 
-void VolumePatch::settle(const FoamParams& params, const std::vector<std::int32_t>& off,
-                         const Neighbours& neighbours, const std::vector<NearWalls>& walls,
-                         BubbleStore& bubbles) {
-  std::vector<std::int32_t> left = off;
-  for (int patch = 0; patch < kPatches && !left.empty(); ++patch) {
-    choose(left, neighbours, bubbles.size());
+bool VolumePatch::settle(const FoamParams& params, const std::vector<NearWalls>& walls, FoamTopology& topology,
+                         Neighbours& neighbours, BubbleStore& bubbles) {
+  radius_ = bubbles.radius;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::vector<std::int32_t> off = cellsOff(bubbles, params.volumeTolerance);
+    if (off.empty()) break;
+    choose(off, neighbours, bubbles.size());
     gather(walls, bubbles);
-    correct(params);
-    giveBack(bubbles);
-    left = cellsOffIn(watched, params.volumeTolerance);
+    correct(params, topology, neighbours);
+    giveBack(topology, neighbours, bubbles);
   }
+  return hasAllPairs(neighbours, bubbles);
 }
 
 void VolumePatch::choose(const std::vector<std::int32_t>& off, const Neighbours& neighbours,
                          std::size_t bubbles) {
-  ring_.assign(bubbles, elsewhere);
+  ring_.assign(bubbles, elsewhere), place_.assign(bubbles, -1);
   std::vector<std::int32_t> inner = off, outer;
   const auto take = [&](const std::vector<std::int32_t>& from, Ring ring) {
     outer.clear();
@@ -38,10 +43,12 @@ void VolumePatch::choose(const std::vector<std::int32_t>& off, const Neighbours&
   };
   for (const std::int32_t i : off) ring_[i] = corrected;
   for (const Ring ring : {corrected, watched, cutting}) take(inner, ring), inner.swap(outer);
-  rows_.clear(), fixed_.clear();
+  rows_.clear(), fixed_.clear(), whole_.clear();
   for (std::size_t i = 0; i < bubbles; ++i) {
     if (ring_[i] == elsewhere) continue;
-    rows_.push_back(static_cast<std::int32_t>(i)), fixed_.push_back(ring_[i] != corrected);
+    place_[i] = static_cast<std::int32_t>(rows_.size());
+    rows_.push_back(static_cast<std::int32_t>(i));
+    fixed_.push_back(ring_[i] != corrected), whole_.push_back(ring_[i] != cutting);
   }
 }
 
@@ -52,33 +59,38 @@ void VolumePatch::gather(const std::vector<NearWalls>& walls, const BubbleStore&
   for (const std::int32_t i : rows_) walls_.push_back(walls[i]);
 }
 
-void VolumePatch::measure() {
+/// Leaves the patch as measured with its new radii.
+void VolumePatch::correct(const FoamParams& params, const FoamTopology& topology,
+                          const Neighbours& neighbours) {
+  takePart(topology, neighbours, rows_, place_, topology_);
+  projectVolumes(params, topology_, fixed_, part_);
   cells_.compute(part_, walls_, topology_);
-  noteVolumes(topology_, part_);
 }
 
-/// Leaves the patch as measured with its last radii.
-void VolumePatch::correct(const FoamParams& params) {
-  measure();
-  for (int pass = 0; pass < kPasses && !cellsOffIn(corrected, params.volumeTolerance).empty(); ++pass) {
-    projectVolumes(params, topology_, fixed_, part_);
-    measure();
-  }
-}
-
-void VolumePatch::giveBack(BubbleStore& bubbles) const {
+void VolumePatch::giveBack(FoamTopology& topology, Neighbours& neighbours, BubbleStore& bubbles) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     bubbles.radius[rows_[k]] = part_.radius[k];
     bubbles.clamped[rows_[k]] = part_.clamped[k];
   }
+  replacer_.putBack(topology_, rows_, whole_, topology);
+  noteVolumes(topology, bubbles);
+  neighbours.build(bubbles.size(), topology.overlaps);
 }
 
-/// Rows of all bubbles; of the last ring's cells nothing is known, they are cut by bubbles that are not here.
-std::vector<std::int32_t> VolumePatch::cellsOffIn(Ring last, double tolerance) const {
-  std::vector<std::int32_t> rows;
-  for (const std::int32_t k : cellsOff(part_, tolerance))
-    if (ring_[rows_[k]] <= last) rows.push_back(rows_[k]);
-  return rows;
+/// Whether every ball that has grown knows all others it overlaps: a patch sees those in it alone.
+bool VolumePatch::hasAllPairs(const Neighbours& neighbours, const BubbleStore& bubbles) const {
+  for (std::size_t i = 0; i < bubbles.size(); ++i) {
+    const double r = bubbles.radius[i];
+    if (r <= (1 + kGrown) * radius_[i]) continue;
+    const Eigen::Vector3d& at = bubbles.position[i];
+    const auto overlaps = [&](std::size_t j) {
+      const double reach = r + bubbles.radius[j];
+      return (bubbles.position[j] - at).squaredNorm() < reach * reach ? 1 : 0;
+    };
+    const int found = reduceIndices(bubbles.size(), 0, overlaps, std::plus<>()) - 1;
+    if (found > neighbours.start[i + 1] - neighbours.start[i]) return false;
+  }
+  return true;
 }
 
 }  // namespace spume::foam

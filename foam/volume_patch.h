@@ -5,19 +5,23 @@
 
 #include "foam/foam_params.h"
 #include "foam/neighbours.h"
+#include "foam/topology_part.h"
 #include "foam/wall_cells.h"
 
 namespace spume::foam {
 
 /// Brings the few cells that do not hold their gas yet to do so, at the cost of their surroundings alone:
 /// they and their neighbours are corrected, those around them are watched, and what cuts these is measured
-/// along. Cells that appear, vanish or change their neighbours need several more Newton steps than all others.
+/// along. Cells that appear, vanish or change their neighbours need several more Newton steps than all others;
+/// each step is taken around what the last one has left or disturbed.
 class VolumePatch {
  public:
-  /// Corrects radii and clamped flags of `off` (rows, ascending), of their neighbours, and of whom these
-  /// disturb. `neighbours` and `walls` as last measured with all bubbles; `walls` may be empty.
-  void settle(const FoamParams& params, const std::vector<std::int32_t>& off, const Neighbours& neighbours,
-              const std::vector<NearWalls>& walls, BubbleStore& bubbles);
+  /// Corrects radii and clamped flags until all cells hold their gas to the tolerance, or no step helps any
+  /// more. `topology` and `neighbours` as measured with all bubbles, volumes noted; leaves all three as they
+  /// are with the new radii. `walls` may be empty. False if a ball has grown into one that was not its
+  /// neighbour: then geometry has to be measured with all bubbles again.
+  bool settle(const FoamParams& params, const std::vector<NearWalls>& walls, FoamTopology& topology,
+              Neighbours& neighbours, BubbleStore& bubbles);
 
  private:
   /// Distance of a bubble from those off, in neighbours.
@@ -25,18 +29,21 @@ class VolumePatch {
 
   void choose(const std::vector<std::int32_t>& off, const Neighbours& neighbours, std::size_t bubbles);
   void gather(const std::vector<NearWalls>& walls, const BubbleStore& bubbles);
-  void measure();
-  void correct(const FoamParams& params);
-  void giveBack(BubbleStore& bubbles) const;
-  std::vector<std::int32_t> cellsOffIn(Ring last, double tolerance) const;
+  void correct(const FoamParams& params, const FoamTopology& topology, const Neighbours& neighbours);
+  void giveBack(FoamTopology& topology, Neighbours& neighbours, BubbleStore& bubbles);
+  bool hasAllPairs(const Neighbours& neighbours, const BubbleStore& bubbles) const;
 
-  std::vector<Ring> ring_;          ///< of every bubble
-  std::vector<std::int32_t> rows_;  ///< of the patch, ascending
-  std::vector<char> fixed_;         ///< by place in rows_: does not change itself
+  std::vector<Ring> ring_;           ///< of every bubble
+  std::vector<std::int32_t> place_;  ///< in the patch, of every bubble, or -1
+  std::vector<std::int32_t> rows_;   ///< of the patch, ascending
+  std::vector<char> fixed_;          ///< by place in rows_: does not change itself
+  std::vector<std::uint8_t> whole_;  ///< by place in rows_: has all its neighbours in the patch
+  std::vector<double> radius_;       ///< of all bubbles when geometry was measured with all [m]
   BubbleStore part_;
   std::vector<NearWalls> walls_;
   WallCells cells_;
   FoamTopology topology_;
+  PartReplacer replacer_;
 };
 
 }  // namespace spume::foam

@@ -166,6 +166,28 @@ TEST(VolumeCorrection, NewtonBringsBackACellThatIsAllButCoveredOrLetGo) {
   }
 }
 
+void measure(BubbleStore& bubbles, FoamTopology& topology, Neighbours& neighbours) {
+  PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  neighbours.build(bubbles.size(), topology.overlaps);
+  noteVolumes(topology, bubbles);
+}
+
+/// The same pairs and films, areas and volumes to round-off of a sum over a dozen films.
+void expectSameGeometry(const FoamTopology& a, const FoamTopology& b) {
+  constexpr double kRoundOff = 1e-12;
+  EXPECT_EQ(a.hidden, b.hidden);
+  ASSERT_EQ(a.overlaps.size(), b.overlaps.size());
+  ASSERT_EQ(a.films.size(), b.films.size());
+  for (std::size_t p = 0; p < a.overlaps.size(); ++p)
+    EXPECT_TRUE(a.overlaps[p].i == b.overlaps[p].i && a.overlaps[p].j == b.overlaps[p].j &&
+                a.overlaps[p].film == b.overlaps[p].film);
+  for (std::size_t f = 0; f < a.films.size(); ++f) {
+    EXPECT_TRUE(a.films[f].i == b.films[f].i && a.films[f].j == b.films[f].j);
+    EXPECT_NEAR(a.films[f].area, b.films[f].area, kRoundOff * std::pow(a.films[f].distance, 2));
+  }
+  for (std::size_t i = 0; i < a.volume.size(); ++i) EXPECT_NEAR(a.volume[i], b.volume[i], kRoundOff * b.volume[i]);
+}
+
 TEST(VolumeCorrection, APatchCorrectsAFewCellsAndLeavesTheRest) {
   BubbleStore bubbles = denseFoam();
   FoamParams params;
@@ -175,24 +197,16 @@ TEST(VolumeCorrection, APatchCorrectsAFewCellsAndLeavesTheRest) {
   const std::vector<double> before = bubbles.radius;
   const std::size_t odd = bubbles.size() / 2;
   bubbles.radius[odd] *= 1.1;
-  FoamTopology topology;
+  FoamTopology topology, anew;
   Neighbours neighbours;
-  VolumePatch patch;
-  std::size_t left = 0;
-  for (int round = 0; round < 4; ++round) {  // what a patch shifts at its rim is left to the next
-    PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
-    neighbours.build(bubbles.size(), topology.overlaps);
-    noteVolumes(topology, bubbles);
-    const auto off = cellsOff(bubbles, params.volumeTolerance);
-    if (round == 0) {
-      EXPECT_GE(off.size(), 3u);
-      EXPECT_LT(off.size(), bubbles.size() / 10);
-    }
-    left = off.size();
-    if (off.empty()) break;
-    patch.settle(params, off, neighbours, {}, bubbles);
-  }
-  EXPECT_EQ(left, 0u);
+  measure(bubbles, topology, neighbours);
+  const auto off = cellsOff(bubbles, params.volumeTolerance);
+  EXPECT_GE(off.size(), 3u);
+  EXPECT_LT(off.size(), bubbles.size() / 10);
+  EXPECT_TRUE(VolumePatch().settle(params, {}, topology, neighbours, bubbles));
+  EXPECT_TRUE(cellsOff(bubbles, params.volumeTolerance).empty());
+  PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, anew);
+  expectSameGeometry(topology, anew);
   // The volumes and the radii that gave them are one to one: all come back, and those far off never left.
   std::size_t untouched = 0;
   for (std::size_t i = 0; i < bubbles.size(); ++i) {
@@ -200,6 +214,22 @@ TEST(VolumeCorrection, APatchCorrectsAFewCellsAndLeavesTheRest) {
     untouched += bubbles.radius[i] == before[i];
   }
   EXPECT_GT(untouched, bubbles.size() / 2);
+}
+
+/// A ball that grows until it meets one it did not touch before: no patch around it holds that one.
+TEST(VolumeCorrection, APatchThatGrowsIntoAStrangerSaysSo) {
+  FoamParams params;
+  params.volumeMode = VolumeMode::newton;
+  for (const double gap : {0.05e-3, 0.5e-3}) {
+    BubbleStore bubbles;
+    bubbles.add(bubbleAt({0, 0, 0}, 1e-3)), bubbles.add(bubbleAt({1.5e-3, 0, 0}, 1e-3));
+    bubbles.add(bubbleAt({-2e-3 - gap, 0, 0}, 1e-3));
+    bubbles.gas[0] *= 1.3;
+    FoamTopology topology;
+    Neighbours neighbours;
+    measure(bubbles, topology, neighbours);
+    EXPECT_EQ(VolumePatch().settle(params, {}, topology, neighbours, bubbles), gap > 0.2e-3);
+  }
 }
 
 TEST(VolumeCorrection, NewtonHoldsVolumesWhileBubblesMove) {
