@@ -16,12 +16,15 @@ using Eigen::Vector4f;
 constexpr double kNear = 10;
 constexpr int kLook = 8;
 
-/// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used.
+/// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used. What a register
+/// holds beyond the last entry are those of other runs, and does not count.
 inline Quad coupled(const SweptSystem& a, std::int32_t first, std::int32_t last, const Vector4f* known) {
-  static_assert(SweptSystem::kRun % kQuads == 0);
+  constexpr auto kStep = static_cast<std::int32_t>(kQuads);
+  static_assert(kStep <= SweptSystem::kPadding + 1);
   QuadLanes sum = {};
-  for (std::int32_t e = first; e < last; e += static_cast<std::int32_t>(kQuads)) {
-    const QuadLanes coupling = loadQuads(&a.coupling[e]), of = gatherQuads(known, &a.other[e]);
+  for (std::int32_t e = first; e < last; e += kStep) {
+    const QuadLanes coupling = firstQuads(loadQuads(&a.coupling[e]), last - e);
+    const QuadLanes of = gatherQuads(known, &a.other[e]);
     sum += sumsOf(coupling * of) * coupling + fourthsOf(coupling) * of;
   }
   return joinQuads(sum);

@@ -55,6 +55,14 @@ inline QuadLanes gatherQuads(const Eigen::Vector4f* list, const std::int32_t* pl
 #endif
 }
 
+/// The first `count` quads of a register as they are, 0 for the others.
+inline QuadLanes firstQuads(const QuadLanes& x, std::int32_t count) {
+  using Bits [[gnu::vector_size(sizeof(QuadLanes))]] = std::int32_t;
+  Bits quad;
+  for (std::size_t k = 0; k < 4 * kQuads; ++k) quad[k] = static_cast<std::int32_t>(k / 4);
+  return reinterpret_cast<QuadLanes>(reinterpret_cast<Bits>(x) & (quad < count));
+}
+
 /// Within each quad: the sum of its numbers, four times; its fourth number, four times.
 inline QuadLanes sumsOf(QuadLanes x) {
 #if defined(__AVX512F__)

@@ -5,13 +5,6 @@
 #include "foam/parallel.h"
 
 namespace spume::foam {
-namespace {
-
-std::int32_t padded(std::int32_t count) {
-  return (count + SweptSystem::kRun - 1) / SweptSystem::kRun * SweptSystem::kRun;
-}
-
-}  // namespace
 
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
@@ -23,7 +16,8 @@ void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
     for (std::int32_t* place : {&r.ahead, &r.behind, &r.beyond, &r.end}) *place += entries;
     entries = r.end;
   }
-  other.resize(entries), coupling.resize(entries);
+  other.assign(entries + kPadding, static_cast<std::int32_t>(n));
+  coupling.assign(entries + kPadding, Coupling::Zero());
   forEachIndex(n, [&](std::size_t k) { copyRow(a, k, sweeps), sumDiagonal(a, k); });
 }
 
@@ -55,8 +49,7 @@ SweptSystem::Row SweptSystem::countRow(const BlockSystem& a, std::size_t k, bool
   std::int32_t count[3] = {};
   for (std::int32_t e = a.start[k]; e < a.start[k + 1]; ++e)
     ++count[static_cast<int>(kindOf(k, a.other[e], sweeps))];
-  const std::int32_t behind = padded(count[0]);
-  return {0, behind, behind + count[1], behind + padded(count[1] + count[2])};
+  return {0, count[0], count[0] + count[1], count[0] + count[1] + count[2]};
 }
 
 /// Couplings of one kind stay in the order of the BlockSystem.
@@ -69,10 +62,6 @@ void SweptSystem::copyRow(const BlockSystem& a, std::size_t k, bool sweeps) {
     other[to] = a.other[e] + (kind == Kind::behind ? nobody + 1 : 0);
     coupling[to] << a.block[e].along.cast<float>(), static_cast<float>(a.block[e].across);
   }
-  const auto pad = [&](std::int32_t from, std::int32_t end) {
-    for (std::int32_t e = from; e < end; ++e) other[e] = nobody, coupling[e].setZero();
-  };
-  pad(place[0], row[k].behind), pad(place[2], row[k].end);
 }
 
 void SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) {

@@ -12,8 +12,7 @@
 namespace spume::foam {
 
 /// A BlockSystem laid out for sweeps of conjugate gradients: rows cut into blocks of consecutive rows, each
-/// row with two runs of couplings, those with later rows of its block and all others. Runs are padded to a
-/// multiple of kRun by couplings that are 0, so that a sweep seldom guesses their ends wrong. Couplings are
+/// row with two runs of couplings, those with later rows of its block and all others. Couplings are
 /// kept in single precision: the matrix differs by 1e-7 of each spring, which one refinement against the
 /// BlockSystem undoes, and a sweep moves half the memory.
 struct SweptSystem {
@@ -22,7 +21,8 @@ struct SweptSystem {
   static constexpr std::size_t kAbreast = 4;  ///< blocks a thread sweeps side by side
   static constexpr std::size_t kLeastGroups = 2;
   static constexpr std::size_t kLeastRows = 512;  ///< of a block on average: a cut costs more than it gains below
-  static constexpr std::int32_t kRun = 4;
+  /// Entries behind the last coupling, 0, that whole registers may read.
+  static constexpr std::int32_t kPadding = 4;
 
   /// along [kg^1/2] and, last, across [kg] of a CouplingBlock.
   using Coupling = Eigen::Vector4f;
