@@ -7,6 +7,7 @@
 
 #include "foam/block_system.h"
 #include "foam/crew.h"
+#include "foam/flush_tiny.h"
 #include "foam/symmetric_block.h"
 
 namespace spume::foam {
@@ -84,6 +85,7 @@ struct SweptSystem {
 template <typename Body>
 void sweepForth(Crew& crew, const SweptSystem& a, const Body& body) {
   crew.forEachTask([&](std::size_t group) {
+    const FlushTiny flush;
     const std::size_t* start = &a.blockStart()[SweptSystem::kAbreast * group];
     const std::size_t longest = SweptSystem::longestBlock(start);
     for (std::size_t k = 0; k < longest; ++k)
@@ -96,6 +98,7 @@ void sweepForth(Crew& crew, const SweptSystem& a, const Body& body) {
 template <typename Body>
 void sweepBack(Crew& crew, const SweptSystem& a, const Body& body) {
   crew.forEachTask([&](std::size_t group) {
+    const FlushTiny flush;
     const std::size_t* start = &a.blockStart()[SweptSystem::kAbreast * group];
     const std::size_t longest = SweptSystem::longestBlock(start);
     for (std::size_t k = 1; k <= longest; ++k)
