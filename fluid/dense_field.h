@@ -5,7 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <new>
+
+#include "fluid/large_pages.h"
 
 namespace spume::fluid {
 
@@ -64,11 +65,13 @@ class DenseField {
   static constexpr std::size_t kAlign = 64;
   static constexpr std::ptrdiff_t kRow = sizeof(T) < kAlign ? kAlign / sizeof(T) : 1;
   struct Free {
-    void operator()(T* p) const { ::operator delete[](p, std::align_val_t{kAlign}); }
+    std::size_t bytes = 0;
+    void operator()(T* p) const { freeLargePages(p, bytes); }
   };
   using Buffer = std::unique_ptr<T[], Free>;
   static Buffer allocate(std::ptrdiff_t n) {
-    return Buffer(static_cast<T*>(::operator new[](n * sizeof(T), std::align_val_t{kAlign})));
+    const std::size_t bytes = n * sizeof(T);
+    return Buffer(static_cast<T*>(allocateLargePages(bytes)), Free{bytes});
   }
 
   Eigen::Vector3i size_ = Eigen::Vector3i::Zero();

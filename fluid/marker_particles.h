@@ -35,18 +35,23 @@ class MarkerSorter {
   /// Drops removed markers and sorts the others by cell (x slowest, z fastest), stable inside a cell.
   void sort(MarkerSet& markers);
   /// After `sort`: first marker of a cell; cell numbers as `cellNumber`, one past the last is the total.
-  const std::vector<std::int32_t>& cellStart() const { return cellStart_; }
+  const LargeVector<std::int32_t>& cellStart() const { return cellStart_; }
   /// Number of the cell that holds a position in cell units, clamped to the grid.
   std::int32_t cellNumber(float x, float y, float z) const;
 
  private:
+  void countInSlabs(const MarkerSet& markers);
+  std::vector<std::int32_t> placeSlabs();
+  void sortSlab(int slab, std::int32_t begin, std::int32_t end);
   void permute(MarkerSet& markers);
 
   Eigen::Vector3i cells_;
-  std::vector<std::int32_t> cellStart_, cellOf_, order_, next_;
+  LargeVector<std::int32_t> cellStart_, cellOf_, order_, next_;
+  LargeVector<std::int32_t> bySlab_;  // numbers of the markers, slab after slab of cells
+  std::vector<std::int32_t> place_;   // [chunk][slab]: markers, then place of the next one in bySlab_
   std::vector<std::vector<std::size_t>> gone_;  // of each chunk
-  std::vector<float> column_;
-  std::vector<std::uint8_t> flags_;
+  LargeVector<float> column_;
+  LargeVector<std::uint8_t> flags_;
 };
 
 /// Sets the radius to |phi| within [markerRadiusMin, markerRadiusMax]; an escaped marker gets the smallest

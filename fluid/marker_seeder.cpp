@@ -114,7 +114,7 @@ bool MarkerSeeder::Side::attract(CounterRandom& random, const Eigen::Vector3i& c
 
 void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
   const Eigen::Vector3i cells = side.scene.grid.cells;
-  const std::vector<std::int32_t>& start = sorter_.cellStart();
+  const LargeVector<std::int32_t>& start = sorter_.cellStart();
   missing_.assign(cells.prod(), 0);
   forEachRow(cells, [&](int i, int j) {
     for (int k = 0; k < cells.z(); ++k) {

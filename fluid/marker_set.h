@@ -2,17 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "fluid/large_pages.h"
 
 namespace spume::fluid {
 
 /// The markers of one sign, as columns of equal length. Positions are in cell units from the grid's low
 /// corner. Positive markers live in air (phi > 0), negative ones in the liquid.
 struct MarkerSet {
-  std::vector<float> x, y, z;  ///< position [cells]
-  std::vector<float> radius;   ///< [cells], within markerRadiusMin..markerRadiusMax
-  std::vector<float> gas;      ///< volume the marker stands for [m^3]: air if positive, liquid if negative
-  std::vector<std::uint8_t> escaped;  ///< 1 while on the wrong side by more than its radius
+  LargeVector<float> x, y, z;  ///< position [cells]
+  LargeVector<float> radius;   ///< [cells], within markerRadiusMin..markerRadiusMax
+  LargeVector<float> gas;      ///< volume the marker stands for [m^3]: air if positive, liquid if negative
+  LargeVector<std::uint8_t> escaped;  ///< 1 while on the wrong side by more than its radius
 
   std::size_t size() const { return x.size(); }
 

@@ -24,7 +24,7 @@ class MarkerShares {
                  const MarkerSet& markers);
   double splitCells(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign);
 
-  std::vector<std::int32_t>
+  LargeVector<std::int32_t>
       home_;  ///< offset of each marker's cell in the fields below, -1 if not on its side
   DenseField<std::int32_t> count_;  ///< markers on their own side per cell
   DenseField<float> share_;         ///< volume per such marker [m^3]

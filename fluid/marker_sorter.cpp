@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fluid/marker_chunks.h"
 #include "fluid/marker_particles.h"
@@ -13,6 +14,8 @@ std::int32_t MarkerSorter::cellNumber(float x, float y, float z) const {
 }
 
 namespace {
+
+constexpr std::int32_t kGone = -1;  // cell of a removed marker
 
 /// On its own so that it vectorises.
 [[gnu::noinline]] int countRemoved(int count, const float* __restrict x) {
@@ -40,23 +43,67 @@ void MarkerSorter::compact(MarkerSet& markers) {
   if (end < count) markers.resize(end);
 }
 
-void MarkerSorter::sort(MarkerSet& markers) {
-  const std::size_t count = markers.size();
-  const std::int32_t cells = cells_.prod();
-  constexpr std::int32_t kGone = -1;
+/// Counts the markers of every slab of cells (fixed x), by chunk of markers.
+void MarkerSorter::countInSlabs(const MarkerSet& markers) {
+  const std::size_t count = markers.size(), slabs = cells_.x();
+  const std::int32_t perSlab = cells_.y() * cells_.z();
   cellOf_.resize(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
-    const bool gone = std::isnan(markers.x[n]);
-    cellOf_[n] = gone ? kGone : cellNumber(markers.x[n], markers.y[n], markers.z[n]);
+  place_.assign((count + kMarkerChunk - 1) / kMarkerChunk * slabs, 0);
+  forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
+    std::int32_t* inSlab = &place_[first / kMarkerChunk * slabs];
+    for (std::size_t n = first; n < last; ++n) {
+      const bool gone = std::isnan(markers.x[n]);
+      cellOf_[n] = gone ? kGone : cellNumber(markers.x[n], markers.y[n], markers.z[n]);
+      if (!gone) ++inSlab[cellOf_[n] / perSlab];
+    }
   });
-  cellStart_.assign(cells + 1, 0);
-  for (const std::int32_t cell : cellOf_)
-    if (cell != kGone) ++cellStart_[cell + 1];
-  for (std::int32_t cell = 0; cell < cells; ++cell) cellStart_[cell + 1] += cellStart_[cell];
-  order_.resize(cellStart_[cells]);
-  next_.assign(cellStart_.begin(), cellStart_.end() - 1);
-  for (std::size_t n = 0; n < count; ++n)
-    if (cellOf_[n] != kGone) order_[next_[cellOf_[n]]++] = static_cast<std::int32_t>(n);
+}
+
+/// Turns the counts into places: those of one slab follow each other, within it those of one chunk. Returns
+/// where each slab begins, and the total.
+std::vector<std::int32_t> MarkerSorter::placeSlabs() {
+  const std::size_t slabs = cells_.x();
+  std::vector<std::int32_t> start(slabs + 1);
+  std::int32_t place = 0;
+  for (std::size_t slab = 0; slab < slabs; ++slab) {
+    start[slab] = place;
+    for (std::size_t at = slab; at < place_.size(); at += slabs) place += std::exchange(place_[at], place);
+  }
+  start[slabs] = place;
+  return start;
+}
+
+/// Sorts the markers of a slab, given in their order, by cell.
+void MarkerSorter::sortSlab(int slab, std::int32_t begin, std::int32_t end) {
+  const std::int32_t perSlab = cells_.y() * cells_.z();
+  std::int32_t* start = &cellStart_[slab * perSlab];
+  const std::int32_t firstCell = slab * perSlab;
+  std::fill_n(start, perSlab, 0);
+  for (std::int32_t n = begin; n < end; ++n) ++start[cellOf_[bySlab_[n]] - firstCell];
+  std::int32_t place = begin;
+  for (std::int32_t cell = 0; cell < perSlab; ++cell) {
+    next_[firstCell + cell] = place;
+    place += std::exchange(start[cell], place);
+  }
+  for (std::int32_t n = begin; n < end; ++n) order_[next_[cellOf_[bySlab_[n]]]++] = bySlab_[n];
+}
+
+void MarkerSorter::sort(MarkerSet& markers) {
+  countInSlabs(markers);
+  const std::vector<std::int32_t> slabStart = placeSlabs();
+  const std::size_t slabs = cells_.x();
+  const std::int32_t perSlab = cells_.y() * cells_.z(), cells = cells_.prod();
+  bySlab_.resize(slabStart.back());
+  order_.resize(slabStart.back());
+  forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
+    std::int32_t* place = &place_[first / kMarkerChunk * slabs];
+    for (std::size_t n = first; n < last; ++n)
+      if (cellOf_[n] != kGone) bySlab_[place[cellOf_[n] / perSlab]++] = static_cast<std::int32_t>(n);
+  });
+  cellStart_.resize(cells + 1);
+  next_.resize(cells);
+  tbb::parallel_for(0, cells_.x(), [&](int slab) { sortSlab(slab, slabStart[slab], slabStart[slab + 1]); });
+  cellStart_[cells] = slabStart.back();
   permute(markers);
 }
 
@@ -68,7 +115,7 @@ void MarkerSorter::permute(MarkerSet& markers) {
     });
     column.swap(scratch);
   };
-  for (std::vector<float>* column : {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas})
+  for (LargeVector<float>* column : {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas})
     reorder(*column, column_);
   reorder(markers.escaped, flags_);
 }
