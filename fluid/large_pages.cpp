@@ -29,8 +29,6 @@ void* allocateLargePages(std::size_t bytes) {
   return block;
 }
 
-void freeLargePages(void* block, std::size_t bytes) noexcept {
-  ::operator delete(block, alignmentOf(bytes));
-}
+void freeLargePages(void* block, std::size_t bytes) noexcept { ::operator delete(block, alignmentOf(bytes)); }
 
 }  // namespace spume::fluid

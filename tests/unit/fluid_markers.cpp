@@ -91,7 +91,7 @@ TEST(MarkerSorter, SortsByCellAndKeepsTheOrderInside) {
   markers.append(0.5f, 0.6f, 2.1f, 0.2f);
   MarkerSorter sorter(grid);
   sorter.sort(markers);
-  EXPECT_EQ(markers.radius, (std::vector<float>{0.1f, 0.2f, 0.3f}));
+  EXPECT_EQ(markers.radius, (LargeVector<float>{0.1f, 0.2f, 0.3f}));
   EXPECT_EQ(sorter.cellStart()[2], 0);
   EXPECT_EQ(sorter.cellStart()[3], 2);
   EXPECT_EQ(sorter.cellStart().back(), 3);
