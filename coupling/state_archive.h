@@ -82,8 +82,8 @@ void archive(Archive& a, std::string& text) {
   a.block(text.data(), text.size());
 }
 
-template <typename Archive, typename Value>
-void archive(Archive& a, std::vector<Value>& values) {
+template <typename Archive, typename Value, typename Allocator>
+void archive(Archive& a, std::vector<Value, Allocator>& values) {
   values.resize(a.length(values.size()));
   if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
     a.block(values.data(), values.size() * sizeof(Value));
