@@ -28,6 +28,13 @@ double mostGain(double end, double nearest, double farthest) {
   return d * (end - d / 2);
 }
 
+/// How far outside its cell of the grid a site at x might be [m]: round-off of its cell's number, which far
+/// out says nothing.
+double marginOf(double x, double size) {
+  constexpr double kFar = 0x1p40, kSlack = 1e-3;
+  return std::abs(x) < kFar * size ? kSlack * size : std::numeric_limits<double>::max() / 8;
+}
+
 }  // namespace
 
 bool InflatedCell::build(std::int32_t s, double inflation, Vicinity& vicinity) {
@@ -43,14 +50,31 @@ bool InflatedCell::build(std::int32_t s, double inflation, Vicinity& vicinity) {
 
 /// Cuts the polyhedron by all sites that can; false if one takes all of it.
 bool InflatedCell::grow(Vicinity& vicinity) {
-  std::size_t begin = 0;
+  std::size_t begin = 0, end = vicinity.keepNearest();
   for (std::int64_t ring = 1;; ++ring) {
-    const std::size_t end = vicinity.endOf(ring);
     if (!cutByNearest(vicinity, begin, end)) return false;
-    begin = end;
     // All sites that are nearer along every axis have been visited.
     const double seen = static_cast<double>(ring) * grid_->cellSize();
     if (noneBeyond(seen) || grid_->endsWithin(site_->position, ring)) return true;
+    weighRing(ring + 1);
+    begin = end, end = vicinity.addRing(ring + 1, worth_);
+  }
+}
+
+/// How far sites can cut into the box around the cell, by their grid cells as far as that ring.
+void InflatedCell::weighRing(std::int64_t ring) {
+  const ConvexCell::Box& box = cell_.box();
+  const double r = site_->ball.radius, largest = grid_->maxRadius(), size = grid_->cellSize();
+  const Vector3d corner = grid_->cornerOf(site_->position) - site_->position;
+  worth_.least = -(largest - r) * (largest + r) / 2 - kInside * reach_ * reach_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin = marginOf(site_->position[axis], size), top = box.high[axis], bottom = -box.low[axis];
+    worth_.along[axis].clear();
+    for (std::int64_t k = -ring; k <= ring; ++k) {
+      const double low = corner[axis] + static_cast<double>(k) * size - margin, high = low + size + 2 * margin;
+      worth_.along[axis].push_back(std::max(mostGain(top, std::max(low, 0.0), high),
+                                            mostGain(bottom, std::max(-high, 0.0), -low)));
+    }
   }
 }
 
