@@ -16,6 +16,14 @@ using Eigen::Vector3d;
 /// Nearness of a site at the bubble's own place: before all others.
 constexpr double kFirst = -1e300;
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// Planes no higher than this many radii are those of bubbles that touch, or nearly.
+constexpr double kTouching = 1.5;
+
+/// From so many sites on, looking at them twice costs less than cutting by them all.
+constexpr std::size_t kMany = 48;
+
 /// A corner counts as inside the ball if it is by this share of r^2: well above round-off.
 constexpr double kInside = 1e-12;
 
@@ -98,8 +106,19 @@ bool InflatedCell::noneBeyond(double seen) {
 
 /// Cuts by sites begin .. end - 1 of the vicinity, from the nearest plane on.
 bool InflatedCell::cutByNearest(const Vicinity& vicinity, std::size_t begin, std::size_t end) {
+  if (begin > 0 || end < kMany) return cutByHeights(vicinity, begin, end, -kNoLimit, kNoLimit);
+  // While the cell is still the whole cube, no site can be left out: the few nearest make it small.
+  const double touching = kTouching * site_->ball.radius, low = touching * touching;
+  return cutByHeights(vicinity, begin, end, -kNoLimit, low) &&
+         cutByHeights(vicinity, begin, end, low, kNoLimit);
+}
+
+/// The same by those sites whose nearness is above `from` and at most `to` [m^2].
+bool InflatedCell::cutByHeights(const Vicinity& vicinity, std::size_t begin, std::size_t end, double from,
+                                double to) {
   candidates_.clear();
-  for (std::size_t k = begin; k < end; k += kLanes) addCandidates(vicinity, k, std::min(end, k + kLanes));
+  for (std::size_t k = begin; k < end; k += kLanes)
+    addCandidates(vicinity, k, std::min(end, k + kLanes), from, to);
   std::sort(candidates_.begin(), candidates_.end());
   for (const Candidate& candidate : candidates_)
     if (!cutBy(vicinity, candidate.place)) return false;
@@ -107,7 +126,8 @@ bool InflatedCell::cutByNearest(const Vicinity& vicinity, std::size_t begin, std
 }
 
 /// Those of a block of sites whose plane meets the box around the polyhedron.
-void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end) {
+void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end, double from,
+                                 double to) {
   const Lanes dx = loadLanes(&vicinity.x[k]) - site_->position.x(),
               dy = loadLanes(&vicinity.y[k]) - site_->position.y(),
               dz = loadLanes(&vicinity.z[k]) - site_->position.z(), radius = loadLanes(&vicinity.radius[k]);
@@ -115,12 +135,13 @@ void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::s
   const Lanes d2 = dx * dx + dy * dy + dz * dz, offset = (d2 + (r - radius) * (r + radius)) / 2;
   const ConvexCell::Box& box = cell_.box();
   const auto most = [&](const Lanes& d, int axis) { return d > 0 ? d * box.high[axis] : d * box.low[axis]; };
-  const LaneMask meets = (most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0);
-  const Lanes nearness = (offset < 0 ? -offset : offset) * offset / d2;
+  const Lanes first = Lanes{} + kFirst, height2 = (offset < 0 ? -offset : offset) * offset / d2;
+  const Lanes nearness = (d2 > 0) & (height2 > kFirst) ? height2 : first;
+  const LaneMask meets = ((most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0)) &
+                         (nearness > from) & (nearness <= to);
   for (std::uint32_t bits = bitsOf(meets); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    if (k + lane < end)
-      candidates_.push_back({d2[lane] > 0 ? nearness[lane] : kFirst, static_cast<std::int32_t>(k + lane)});
+    if (k + lane < end) candidates_.push_back({nearness[lane], static_cast<std::int32_t>(k + lane)});
   }
 }
 

@@ -37,7 +37,8 @@ class InflatedCell {
   bool noneBeyond(double seen);
   void weighRing(std::int64_t ring);
   bool cutByNearest(const Vicinity& vicinity, std::size_t begin, std::size_t end);
-  void addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end);
+  bool cutByHeights(const Vicinity& vicinity, std::size_t begin, std::size_t end, double from, double to);
+  void addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end, double from, double to);
   bool cutBy(const Vicinity& vicinity, std::int32_t place);
   void listNeighbours();
   void collectPlanes();

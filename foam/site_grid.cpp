@@ -22,9 +22,7 @@ SiteGrid::SiteGrid(const std::vector<Eigen::Vector3d>& position, const std::vect
     : cellSize_(cellSize) {
   const double far = std::numeric_limits<double>::max();
   lowest_.setConstant(far), highest_.setConstant(-far);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    lowest_ = lowest_.cwiseMin(position[i]), highest_ = highest_.cwiseMax(position[i]);
-  }
+  for (const Eigen::Vector3d& x : position) lowest_ = lowest_.cwiseMin(x), highest_ = highest_.cwiseMax(x);
   low_ = cellOf(lowest_), high_ = cellOf(highest_);
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys(position.size());
   for (std::size_t i = 0; i < position.size(); ++i)
