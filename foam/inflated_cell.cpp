@@ -76,12 +76,14 @@ void InflatedCell::weighRing(std::int64_t ring) {
   const Vector3d corner = grid_->cornerOf(site_->position) - site_->position;
   worth_.least = -(largest - r) * (largest + r) / 2 - kInside * reach_ * reach_;
   for (int axis = 0; axis < 3; ++axis) {
-    const double margin = marginOf(site_->position[axis], size), top = box.high[axis], bottom = -box.low[axis];
+    const double margin = marginOf(site_->position[axis], size), top = box.high[axis],
+                 bottom = -box.low[axis];
     worth_.along[axis].clear();
     for (std::int64_t k = -ring; k <= ring; ++k) {
-      const double low = corner[axis] + static_cast<double>(k) * size - margin, high = low + size + 2 * margin;
-      worth_.along[axis].push_back(std::max(mostGain(top, std::max(low, 0.0), high),
-                                            mostGain(bottom, std::max(-high, 0.0), -low)));
+      const double low = corner[axis] + static_cast<double>(k) * size - margin,
+                   high = low + size + 2 * margin;
+      worth_.along[axis].push_back(
+          std::max(mostGain(top, std::max(low, 0.0), high), mostGain(bottom, std::max(-high, 0.0), -low)));
     }
   }
 }
@@ -137,8 +139,8 @@ void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::s
   const auto most = [&](const Lanes& d, int axis) { return d > 0 ? d * box.high[axis] : d * box.low[axis]; };
   const Lanes first = Lanes{} + kFirst, height2 = (offset < 0 ? -offset : offset) * offset / d2;
   const Lanes nearness = (d2 > 0) & (height2 > kFirst) ? height2 : first;
-  const LaneMask meets = ((most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0)) &
-                         (nearness > from) & (nearness <= to);
+  const LaneMask meets =
+      ((most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0)) & (nearness > from) & (nearness <= to);
   for (std::uint32_t bits = bitsOf(meets); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
     if (k + lane < end) candidates_.push_back({nearness[lane], static_cast<std::int32_t>(k + lane)});

@@ -64,8 +64,7 @@ struct SlipEquation {
     const double dragSlope = speed > 0 ? dragPerStep * (speed + along * along / speed) : 0;
     const double force = bubble.up.dot(bubble.surfaceForce(at));
     const double stiffness = dt * bubble.phiSlope * bubble.surfaceStiffness(at);
-    return {(inertia + drag) * along - pull - dt * force,
-            inertia + dragSlope - dt * stiffness};
+    return {(inertia + drag) * along - pull - dt * force, inertia + dragSlope - dt * stiffness};
   }
 
   /// Slip along grad phi.
@@ -112,9 +111,7 @@ bool surfaceForceIsConstant(const LoneBubble& b, double phiEnd) {
 }
 
 /// Whether a bubble that starts here can have a path of constant surface force at all.
-bool startsOffTheSurface(const LoneBubble& b) {
-  return b.phi <= -b.radius || b.start == StepStart::aloft;
-}
+bool startsOffTheSurface(const LoneBubble& b) { return b.phi <= -b.radius || b.start == StepStart::aloft; }
 
 /// Exact while the surface force stays as it is at the start.
 Vector3d velocityUnderConstantForce(const LoneBubble& b, double dt) {

@@ -29,7 +29,8 @@ SiteGrid::SiteGrid(const std::vector<Eigen::Vector3d>& position, const std::vect
     keys[i] = {keyOf(cellOf(position[i])), static_cast<std::int32_t>(i)};
   tbb::parallel_sort(keys.begin(), keys.end());
   sites_.reserve(keys.size());
-  for (auto* column : {&column_.x, &column_.y, &column_.z, &column_.radius}) column->reserve(keys.size() + kLanes);
+  for (auto* column : {&column_.x, &column_.y, &column_.z, &column_.radius})
+    column->reserve(keys.size() + kLanes);
   for (const auto& [key, i] : keys) {
     if (sites_.empty() || cellOf(position[i]) != cellOf(sites_.back().position))
       runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
@@ -88,7 +89,8 @@ void Vicinity::moveTo(const SiteGrid& grid, const Eigen::Vector3d& centre) {
 
 std::size_t Vicinity::keepNearest() {
   if (nearest_ == 0) {
-    static const SiteGrid::Worth all{{std::vector<double>(3), std::vector<double>(3), std::vector<double>(3)}, -1};
+    static const SiteGrid::Worth all{{std::vector<double>(3), std::vector<double>(3), std::vector<double>(3)},
+                                     -1};
     addRing(0, all);
     nearest_ = addRing(1, all);
   }

@@ -130,8 +130,8 @@ class SiteGrid {
   std::vector<std::int32_t> runStart_;
 };
 
-/// The sites around one cell of the grid, nearest rings first: the nearest are the same for all bubbles of the
-/// cell, those beyond are gathered for one bubble. One per thread.
+/// The sites around one cell of the grid, nearest rings first: the nearest are the same for all bubbles of
+/// the cell, those beyond are gathered for one bubble. One per thread.
 class Vicinity {
  public:
   std::vector<double> x, y, z, radius;  ///< [m], padded
