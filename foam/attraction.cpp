@@ -5,6 +5,7 @@
 
 #include "foam/forces/solid_attraction.h"
 #include "foam/forces/weak_attraction.h"
+#include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
@@ -40,15 +41,18 @@ void Attraction::findPairs(const FoamParams& params, const BubbleStore& bubbles,
     finder_.find(bubbles.position, bubbles.radius, bubbles.id, floats_, topology, range, pairs_);
 }
 
-void Attraction::addPairs(const FoamParams& params, const BubbleStore& bubbles, Vectors3& force) const {
+void Attraction::addPairs(const FoamParams& params, const BubbleStore& bubbles, Vectors3& force) {
   const std::vector<double>&gas = bubbles.gas, &radius = bubbles.radius, &weight = bubbles.surfaceWeight;
-  for (const WeakPair& pair : pairs_) {
+  pull_.resize(pairs_.size());
+  forEachIndex(pairs_.size(), [&](std::size_t k) {
+    const WeakPair& pair = pairs_[k];
     const double pull =
         weight[pair.i] * weight[pair.j] *
         weakAttraction(params, gas[pair.i], radius[pair.i], gas[pair.j], radius[pair.j], pair.distance);
-    const Eigen::Vector3d step = (bubbles.position[pair.j] - bubbles.position[pair.i]) / pair.distance;
-    force[pair.i] += pull * step, force[pair.j] -= pull * step;
-  }
+    pull_[k] = pull * ((bubbles.position[pair.j] - bubbles.position[pair.i]) / pair.distance);
+  });
+  for (std::size_t k = 0; k < pairs_.size(); ++k)  // in the order of the pairs, whoever has found the pulls
+    force[pairs_[k].i] += pull_[k], force[pairs_[k].j] -= pull_[k];
 }
 
 void Attraction::addSolids(const FoamParams& params, const BubbleStore& bubbles, const Surroundings& around,

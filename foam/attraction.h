@@ -24,12 +24,13 @@ class Attraction {
 
  private:
   void findPairs(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology);
-  void addPairs(const FoamParams& params, const BubbleStore& bubbles, Vectors3& force) const;
+  void addPairs(const FoamParams& params, const BubbleStore& bubbles, Vectors3& force);
   void addSolids(const FoamParams& params, const BubbleStore& bubbles, const Surroundings& around,
                  const LiquidSampler& liquid, Vectors3& force) const;
 
   WeakPairs finder_;
   std::vector<WeakPair> pairs_;
+  Vectors3 pull_;  ///< of each pair's j on its i [N]
   std::vector<std::uint8_t> floats_;
 };
 

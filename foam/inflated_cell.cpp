@@ -16,6 +16,14 @@ using Eigen::Vector3d;
 /// Nearness of a site at the bubble's own place: before all others.
 constexpr double kFirst = -1e300;
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// Planes no higher than this many radii are those of bubbles that touch, or nearly.
+constexpr double kTouching = 1.5;
+
+/// From so many sites on, looking at them twice costs less than cutting by them all.
+constexpr std::size_t kMany = 48;
+
 /// A corner counts as inside the ball if it is by this share of r^2: well above round-off.
 constexpr double kInside = 1e-12;
 
@@ -26,6 +34,13 @@ double mostGain(double end, double nearest, double farthest) {
   if (farthest < nearest) return -std::numeric_limits<double>::infinity();
   const double d = std::clamp(end, nearest, farthest);
   return d * (end - d / 2);
+}
+
+/// How far outside its cell of the grid a site at x might be [m]: round-off of its cell's number, which far
+/// out says nothing.
+double marginOf(double x, double size) {
+  constexpr double kFar = 0x1p40, kSlack = 1e-3;
+  return std::abs(x) < kFar * size ? kSlack * size : std::numeric_limits<double>::max() / 8;
 }
 
 }  // namespace
@@ -43,14 +58,33 @@ bool InflatedCell::build(std::int32_t s, double inflation, Vicinity& vicinity) {
 
 /// Cuts the polyhedron by all sites that can; false if one takes all of it.
 bool InflatedCell::grow(Vicinity& vicinity) {
-  std::size_t begin = 0;
+  std::size_t begin = 0, end = vicinity.keepNearest();
   for (std::int64_t ring = 1;; ++ring) {
-    const std::size_t end = vicinity.endOf(ring);
     if (!cutByNearest(vicinity, begin, end)) return false;
-    begin = end;
     // All sites that are nearer along every axis have been visited.
     const double seen = static_cast<double>(ring) * grid_->cellSize();
     if (noneBeyond(seen) || grid_->endsWithin(site_->position, ring)) return true;
+    weighRing(ring + 1);
+    begin = end, end = vicinity.addRing(ring + 1, worth_);
+  }
+}
+
+/// How far sites can cut into the box around the cell, by their grid cells as far as that ring.
+void InflatedCell::weighRing(std::int64_t ring) {
+  const ConvexCell::Box& box = cell_.box();
+  const double r = site_->ball.radius, largest = grid_->maxRadius(), size = grid_->cellSize();
+  const Vector3d corner = grid_->cornerOf(site_->position) - site_->position;
+  worth_.least = -(largest - r) * (largest + r) / 2 - kInside * reach_ * reach_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin = marginOf(site_->position[axis], size), top = box.high[axis],
+                 bottom = -box.low[axis];
+    worth_.along[axis].clear();
+    for (std::int64_t k = -ring; k <= ring; ++k) {
+      const double low = corner[axis] + static_cast<double>(k) * size - margin,
+                   high = low + size + 2 * margin;
+      worth_.along[axis].push_back(
+          std::max(mostGain(top, std::max(low, 0.0), high), mostGain(bottom, std::max(-high, 0.0), -low)));
+    }
   }
 }
 
@@ -74,8 +108,19 @@ bool InflatedCell::noneBeyond(double seen) {
 
 /// Cuts by sites begin .. end - 1 of the vicinity, from the nearest plane on.
 bool InflatedCell::cutByNearest(const Vicinity& vicinity, std::size_t begin, std::size_t end) {
+  if (begin > 0 || end < kMany) return cutByHeights(vicinity, begin, end, -kNoLimit, kNoLimit);
+  // While the cell is still the whole cube, no site can be left out: the few nearest make it small.
+  const double touching = kTouching * site_->ball.radius, low = touching * touching;
+  return cutByHeights(vicinity, begin, end, -kNoLimit, low) &&
+         cutByHeights(vicinity, begin, end, low, kNoLimit);
+}
+
+/// The same by those sites whose nearness is above `from` and at most `to` [m^2].
+bool InflatedCell::cutByHeights(const Vicinity& vicinity, std::size_t begin, std::size_t end, double from,
+                                double to) {
   candidates_.clear();
-  for (std::size_t k = begin; k < end; k += kLanes) addCandidates(vicinity, k, std::min(end, k + kLanes));
+  for (std::size_t k = begin; k < end; k += kLanes)
+    addCandidates(vicinity, k, std::min(end, k + kLanes), from, to);
   std::sort(candidates_.begin(), candidates_.end());
   for (const Candidate& candidate : candidates_)
     if (!cutBy(vicinity, candidate.place)) return false;
@@ -83,7 +128,8 @@ bool InflatedCell::cutByNearest(const Vicinity& vicinity, std::size_t begin, std
 }
 
 /// Those of a block of sites whose plane meets the box around the polyhedron.
-void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end) {
+void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end, double from,
+                                 double to) {
   const Lanes dx = loadLanes(&vicinity.x[k]) - site_->position.x(),
               dy = loadLanes(&vicinity.y[k]) - site_->position.y(),
               dz = loadLanes(&vicinity.z[k]) - site_->position.z(), radius = loadLanes(&vicinity.radius[k]);
@@ -91,12 +137,13 @@ void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::s
   const Lanes d2 = dx * dx + dy * dy + dz * dz, offset = (d2 + (r - radius) * (r + radius)) / 2;
   const ConvexCell::Box& box = cell_.box();
   const auto most = [&](const Lanes& d, int axis) { return d > 0 ? d * box.high[axis] : d * box.low[axis]; };
-  const LaneMask meets = (most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0);
-  const Lanes nearness = (offset < 0 ? -offset : offset) * offset / d2;
+  const Lanes first = Lanes{} + kFirst, height2 = (offset < 0 ? -offset : offset) * offset / d2;
+  const Lanes nearness = (d2 > 0) & (height2 > kFirst) ? height2 : first;
+  const LaneMask meets =
+      ((most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0)) & (nearness > from) & (nearness <= to);
   for (std::uint32_t bits = bitsOf(meets); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    if (k + lane < end)
-      candidates_.push_back({d2[lane] > 0 ? nearness[lane] : kFirst, static_cast<std::int32_t>(k + lane)});
+    if (k + lane < end) candidates_.push_back({nearness[lane], static_cast<std::int32_t>(k + lane)});
   }
 }
 

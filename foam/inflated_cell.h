@@ -35,8 +35,10 @@ class InflatedCell {
 
   bool grow(Vicinity& vicinity);
   bool noneBeyond(double seen);
+  void weighRing(std::int64_t ring);
   bool cutByNearest(const Vicinity& vicinity, std::size_t begin, std::size_t end);
-  void addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end);
+  bool cutByHeights(const Vicinity& vicinity, std::size_t begin, std::size_t end, double from, double to);
+  void addCandidates(const Vicinity& vicinity, std::size_t k, std::size_t end, double from, double to);
   bool cutBy(const Vicinity& vicinity, std::int32_t place);
   void listNeighbours();
   void collectPlanes();
@@ -46,6 +48,7 @@ class InflatedCell {
   const SiteGrid::Site* site_ = nullptr;
   double reach_ = 0;  ///< radius of the inflated ball [m]
   ConvexCell cell_;
+  SiteGrid::Worth worth_;
   std::vector<Candidate> candidates_;
   std::vector<Neighbour> face_, neighbours_;  ///< behind each face the cell has had; of those that are left
   std::vector<ConvexCell::Face> left_;        ///< the faces that are, in the order of the neighbours

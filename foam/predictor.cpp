@@ -41,6 +41,8 @@ struct SlipEquation {
   double inertia;      ///< m + dt (a + viscous)
   double dragPerStep;  ///< dt k
   Vector3d momentum;   ///< m w0 + dt (constant forces - a u): all but the surface force
+  double pull;         ///< of the momentum along grad phi [N s]
+  double phiAtRest;    ///< at the end of the step without slip [m]
 
   SlipEquation(const LoneBubble& b, double step)
       : bubble(b),
@@ -48,27 +50,26 @@ struct SlipEquation {
         inertia(b.mass + step * (b.airDrag + b.viscousDrag)),
         dragPerStep(step * b.drag) {
     momentum = b.mass * (b.velocity - b.liquidVelocity) + step * (b.weight - b.airDrag * b.liquidVelocity);
+    pull = b.up.dot(momentum);
+    phiAtRest = b.phiAfter(b.liquidVelocity, step);
   }
 
-  double phiAt(double along) const {
-    return bubble.phi + dt * bubble.phiSlope * (along + bubble.up.dot(bubble.liquidVelocity));
-  }
+  double phiAt(double along) const { return phiAtRest + dt * bubble.phiSlope * along; }
+  static double speedOf(double along, double across) { return std::sqrt(along * along + across * across); }
 
   /// {value, slope} of the equation along grad phi for the slip `along`, the slip across it being known.
   std::pair<double, double> alongSurface(double along, double across) const {
-    const double speed = std::hypot(along, across), at = phiAt(along);
+    const double speed = speedOf(along, across), at = phiAt(along);
     const double drag = dragPerStep * speed;
     const double dragSlope = speed > 0 ? dragPerStep * (speed + along * along / speed) : 0;
     const double force = bubble.up.dot(bubble.surfaceForce(at));
     const double stiffness = dt * bubble.phiSlope * bubble.surfaceStiffness(at);
-    return {(inertia + drag) * along - bubble.up.dot(momentum) - dt * force,
-            inertia + dragSlope - dt * stiffness};
+    return {(inertia + drag) * along - pull - dt * force, inertia + dragSlope - dt * stiffness};
   }
 
   /// Slip along grad phi.
   double solveAlong(double across, double guess) const {
     // The surface force lies between these two whatever the path, so the root does too.
-    const double pull = bubble.up.dot(momentum);
     const double reach = bubble.fullBuoyancy.norm() + bubble.adhesion * bubble.radius;
     const double low = std::min((pull - dt * reach) / inertia, 0.0),
                  high = std::max((pull + dt * reach) / inertia, 0.0);
@@ -76,13 +77,13 @@ struct SlipEquation {
   }
 
   /// Size of the slip across grad phi under a momentum of size p, the slip along it being known.
-  double solveAcross(double p, double along) const {
+  double solveAcross(double p, double along, double guess) const {
     const auto balance = [&](double across) {
-      const double speed = std::hypot(along, across);
+      const double speed = speedOf(along, across);
       const double slope = speed > 0 ? dragPerStep * (speed + across * across / speed) : 0;
       return std::pair((inertia + dragPerStep * speed) * across - p, inertia + slope);
     };
-    return increasingRoot(balance, 0, p / inertia, p / inertia);
+    return increasingRoot(balance, 0, p / inertia, p / (inertia + dragPerStep * speedOf(along, guess)));
   }
 };
 
@@ -97,7 +98,7 @@ Vector3d slipAtSurface(const SlipEquation& equation) {
     const Vector3d sideways = total - b.up.dot(total) * b.up;
     const double p = sideways.norm();
     if (p == 0) return along * b.up;
-    across = equation.solveAcross(p, along) / p * sideways;
+    across = equation.solveAcross(p, along, across.norm()) / p * sideways;
   }
   return along * b.up + across;
 }
@@ -107,6 +108,17 @@ bool surfaceForceIsConstant(const LoneBubble& b, double phiEnd) {
   const bool deep = b.phi <= -b.radius && phiEnd <= -b.radius;
   const bool high = b.start == StepStart::aloft && phiEnd >= b.radius;
   return deep || high;
+}
+
+/// Whether a bubble that starts here can have a path of constant surface force at all.
+bool startsOffTheSurface(const LoneBubble& b) { return b.phi <= -b.radius || b.start == StepStart::aloft; }
+
+/// Exact while the surface force stays as it is at the start.
+Vector3d velocityUnderConstantForce(const LoneBubble& b, double dt) {
+  const Vector3d start = b.velocity - b.liquidVelocity;
+  const Vector3d force = b.weight + b.surfaceForce(b.phi) - b.airDrag * b.velocity - b.viscousDrag * start;
+  const double inertia = b.mass + dt * (b.airDrag + b.viscousDrag);
+  return b.liquidVelocity + slipAfter(start, force, b.drag, inertia, dt);
 }
 
 /// Slope of a force of one variable between two points of it, never positive; the tangent where they
@@ -130,11 +142,10 @@ void matchHoldingImpulse(const Vector3d& p, const Vector3d& impulse, Eigen::Matr
 }  // namespace
 
 Vector3d predictVelocity(const LoneBubble& b, double dt) {
-  const Vector3d start = b.velocity - b.liquidVelocity;
-  const Vector3d force = b.weight + b.surfaceForce(b.phi) - b.airDrag * b.velocity - b.viscousDrag * start;
-  const double inertia = b.mass + dt * (b.airDrag + b.viscousDrag);
-  const Vector3d end = b.liquidVelocity + slipAfter(start, force, b.drag, inertia, dt);
-  if (surfaceForceIsConstant(b, b.phiAfter(end, dt))) return end;
+  if (startsOffTheSurface(b)) {
+    const Vector3d end = velocityUnderConstantForce(b, dt);
+    if (surfaceForceIsConstant(b, b.phiAfter(end, dt))) return end;
+  }
   return b.liquidVelocity + slipAtSurface(SlipEquation(b, dt));
 }
 

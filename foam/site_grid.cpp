@@ -22,22 +22,26 @@ SiteGrid::SiteGrid(const std::vector<Eigen::Vector3d>& position, const std::vect
     : cellSize_(cellSize) {
   const double far = std::numeric_limits<double>::max();
   lowest_.setConstant(far), highest_.setConstant(-far);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    lowest_ = lowest_.cwiseMin(position[i]), highest_ = highest_.cwiseMax(position[i]);
-    maxRadius_ = std::max(maxRadius_, radius[i]);
-  }
+  for (const Eigen::Vector3d& x : position) lowest_ = lowest_.cwiseMin(x), highest_ = highest_.cwiseMax(x);
   low_ = cellOf(lowest_), high_ = cellOf(highest_);
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys(position.size());
   for (std::size_t i = 0; i < position.size(); ++i)
     keys[i] = {keyOf(cellOf(position[i])), static_cast<std::int32_t>(i)};
   tbb::parallel_sort(keys.begin(), keys.end());
   sites_.reserve(keys.size());
+  for (auto* column : {&column_.x, &column_.y, &column_.z, &column_.radius})
+    column->reserve(keys.size() + kLanes);
   for (const auto& [key, i] : keys) {
     if (sites_.empty() || cellOf(position[i]) != cellOf(sites_.back().position))
       runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
     sites_.push_back({position[i], {radius[i], id[i]}, i});
+    maxRadius_ = std::max(maxRadius_, sites_.back().ball.radius);
+    column_.x.push_back(position[i].x()), column_.y.push_back(position[i].y());
+    column_.z.push_back(position[i].z()), column_.radius.push_back(sites_.back().ball.radius);
   }
   runStart_.push_back(static_cast<std::int32_t>(sites_.size()));
+  for (auto* column : {&column_.x, &column_.y, &column_.z, &column_.radius})
+    column->resize(sites_.size() + kLanes);
   if (fitsTable())
     fillTable();
   else
@@ -80,26 +84,41 @@ bool SiteGrid::endsWithin(const Eigen::Vector3d& x, std::int64_t ring) const {
 
 void Vicinity::moveTo(const SiteGrid& grid, const Eigen::Vector3d& centre) {
   grid_ = &grid, centre_ = centre;
-  site.clear(), ringEnd_.clear();
+  count_ = 0, nearest_ = 0;
 }
 
-void Vicinity::gatherRing() {
-  grid_->visitRing(centre_, static_cast<std::int64_t>(ringEnd_.size()),
-                   [this](const SiteGrid::Run& run) { add(run); });
-  ringEnd_.push_back(site.size());
-}
-
-void Vicinity::add(const SiteGrid::Run& run) {
-  std::size_t n = site.size();
-  const std::size_t room = n + static_cast<std::size_t>(run.end - run.begin) + kLanes;
-  if (x.size() < room)
-    for (auto* column : {&x, &y, &z, &radius}) column->resize(2 * room);
-  for (std::int32_t s = run.begin; s < run.end; ++s, ++n) {
-    const SiteGrid::Site& from = grid_->sites()[s];
-    x[n] = from.position.x(), y[n] = from.position.y(), z[n] = from.position.z();
-    radius[n] = from.ball.radius;
-    site.push_back(s);
+std::size_t Vicinity::keepNearest() {
+  if (nearest_ == 0) {
+    static const SiteGrid::Worth all{{std::vector<double>(3), std::vector<double>(3), std::vector<double>(3)},
+                                     -1};
+    addRing(0, all);
+    nearest_ = addRing(1, all);
   }
+  count_ = nearest_;
+  return count_;
+}
+
+std::size_t Vicinity::addRing(std::int64_t ring, const SiteGrid::Worth& worth) {
+  grid_->visitRing(centre_, ring, worth, [this](const SiteGrid::Run& run) { add(run); });
+  return count_;
+}
+
+void Vicinity::makeRoom(std::size_t sites) {
+  for (auto* column : {&x, &y, &z, &radius}) column->resize(sites);
+  site.resize(sites);
+}
+
+/// By whole lanes: most runs are short.
+void Vicinity::add(const SiteGrid::Run& run) {
+  const std::size_t n = count_, end = n + static_cast<std::size_t>(run.end - run.begin);
+  if (x.size() < end + kLanes) makeRoom(2 * (end + kLanes));
+  const SiteGrid::Columns& from = grid_->columns();
+  for (std::size_t to = n, k = static_cast<std::size_t>(run.begin); to < end; to += kLanes, k += kLanes) {
+    storeLanes(&x[to], loadLanes(&from.x[k])), storeLanes(&y[to], loadLanes(&from.y[k]));
+    storeLanes(&z[to], loadLanes(&from.z[k])), storeLanes(&radius[to], loadLanes(&from.radius[k]));
+    for (std::size_t lane = 0; lane < kLanes; ++lane) site[to + lane] = static_cast<std::int32_t>(k + lane);
+  }
+  count_ = end;
 }
 
 }  // namespace spume::foam

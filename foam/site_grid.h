@@ -21,6 +21,10 @@ class SiteGrid {
     TieBrokenBall ball;
     std::int32_t index;  ///< in the arrays the grid was made from
   };
+  /// The sites once more, padded, for loops that want but these [m].
+  struct Columns {
+    std::vector<double> x, y, z, radius;
+  };
   /// Sites begin .. end - 1.
   struct Run {
     std::int32_t begin = 0, end = 0;
@@ -36,22 +40,44 @@ class SiteGrid {
   const Eigen::Vector3d& low() const { return lowest_; }
   const Eigen::Vector3d& high() const { return highest_; }
   const std::vector<Site>& sites() const { return sites_; }
+  const Columns& columns() const { return column_; }
   /// First site of each cell that is not empty, then the number of sites.
   const std::vector<std::int32_t>& runStart() const { return runStart_; }
 
+  /// How much a site can matter by its cell: `along[axis][k]` is the part of the cells k - ring from the one
+  /// in the middle along that axis; cells matter where the three parts add up to more than `least`.
+  struct Worth {
+    std::array<std::vector<double>, 3> along;
+    double least = 0;
+  };
   /// Calls visit(run) for runs of the sites whose cell is `ring` cells from that of x, in the largest
-  /// coordinate.
+  /// coordinate; of those that do not matter at least some are left out.
   template <typename Visit>
-  void visitRing(const Eigen::Vector3d& x, std::int64_t ring, const Visit& visit) const {
+  void visitRing(const Eigen::Vector3d& x, std::int64_t ring, const Worth& worth, const Visit& visit) const {
     const Cell centre = cellOf(x);
     Cell cell;
     for (cell[2] = from(centre, 2, ring); cell[2] <= to(centre, 2, ring); ++cell[2])
       for (cell[1] = from(centre, 1, ring); cell[1] <= to(centre, 1, ring); ++cell[1]) {
-        const bool face = std::max(std::abs(cell[2] - centre[2]), std::abs(cell[1] - centre[1])) == ring;
-        for (cell[0] = centre[0] - ring; cell[0] <= centre[0] + ring;
-             cell[0] += face ? 2 * ring + 1 : 2 * ring)
-          visitRow(cell, face ? centre[0] + ring : cell[0], visit);
+        const std::int64_t up = cell[2] - centre[2], across = cell[1] - centre[1];
+        const double least = worth.least - worth.along[2][up + ring] - worth.along[1][across + ring];
+        const auto matters = [&](std::int64_t side) { return worth.along[0][side + ring] > least; };
+        std::int64_t first = -ring, last = ring;
+        while (first <= last && !matters(first)) ++first;
+        while (first <= last && !matters(last)) --last;
+        if (first > last) continue;
+        if (std::max(std::abs(up), std::abs(across)) == ring) {
+          visitRow({centre[0] + first, cell[1], cell[2]}, centre[0] + last, visit);
+          continue;
+        }
+        if (first == -ring) visitRow({centre[0] - ring, cell[1], cell[2]}, centre[0] - ring, visit);
+        if (last == ring) visitRow({centre[0] + ring, cell[1], cell[2]}, centre[0] + ring, visit);
       }
+  }
+  /// The lower corner of the cell of x [m].
+  Eigen::Vector3d cornerOf(const Eigen::Vector3d& x) const {
+    const Cell cell = cellOf(x);
+    return cellSize_ * Eigen::Vector3d(static_cast<double>(cell[0]), static_cast<double>(cell[1]),
+                                       static_cast<double>(cell[2]));
   }
   /// Whether all sites lie within that many rings of the cell of x.
   bool endsWithin(const Eigen::Vector3d& x, std::int64_t ring) const;
@@ -100,32 +126,32 @@ class SiteGrid {
   std::vector<std::int32_t> start_;
   CellHash cells_;  ///< instead of it
   std::vector<Site> sites_;
+  Columns column_;
   std::vector<std::int32_t> runStart_;
 };
 
-/// The sites around one cell of the grid, nearest rings first, gathered as far as they are asked for: what is
-/// near one bubble of the cell is near all. One per thread.
+/// The sites around one cell of the grid, nearest rings first: the nearest are the same for all bubbles of
+/// the cell, those beyond are gathered for one bubble. One per thread.
 class Vicinity {
  public:
   std::vector<double> x, y, z, radius;  ///< [m], padded
-  std::vector<std::int32_t> site;       ///< number in the grid
+  std::vector<std::int32_t> site;       ///< number in the grid, padded
 
   /// Starts anew around the cell of `centre` [m]; the grid must outlive the use.
   void moveTo(const SiteGrid& grid, const Eigen::Vector3d& centre);
   const SiteGrid& grid() const { return *grid_; }
-  /// One past the last site of the ring.
-  std::size_t endOf(std::int64_t ring) {
-    while (static_cast<std::int64_t>(ringEnd_.size()) <= ring) gatherRing();
-    return ringEnd_[ring];
-  }
+  /// Leaves those in the cell and the 26 around it, and returns how many they are.
+  std::size_t keepNearest();
+  /// Adds those of a ring that matter, and returns how many there are in all.
+  std::size_t addRing(std::int64_t ring, const SiteGrid::Worth& worth);
 
  private:
-  void gatherRing();
   void add(const SiteGrid::Run& run);
+  void makeRoom(std::size_t sites);
 
   const SiteGrid* grid_ = nullptr;
   Eigen::Vector3d centre_;
-  std::vector<std::size_t> ringEnd_;
+  std::size_t count_ = 0, nearest_ = 0;  ///< sites in all; in the nearest cells, once asked for
 };
 
 }  // namespace spume::foam
