@@ -1,6 +1,5 @@
 #include "foam/block_pcg.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "foam/parallel.h"
@@ -16,8 +15,8 @@ using Eigen::Vector4f;
 constexpr double kNear = 10;
 constexpr int kLook = 8;
 
-/// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used. What a register
-/// holds beyond the last entry are those of other runs, and does not count.
+/// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used. What a
+/// register holds beyond the last entry are those of other runs, and does not count.
 inline Quad coupled(const SweptSystem& a, std::int32_t first, std::int32_t last, const Vector4f* known) {
   constexpr auto kStep = static_cast<std::int32_t>(kQuads);
   static_assert(kStep <= SweptSystem::kPadding + 1);
@@ -31,7 +30,8 @@ inline Quad coupled(const SweptSystem& a, std::int32_t first, std::int32_t last,
 }
 
 Quad padded(const Eigen::Vector3d& v) {
-  return loadQuad(Vector4f(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0));
+  return loadQuad(
+      Vector4f(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0));
 }
 
 double dot(const Quad& a, const Quad& b) {
@@ -158,8 +158,8 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
   sweepForth(crew, a, [&](std::size_t group, std::size_t k) {
     const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
     const Eigen::Vector3d scaled = state_[k].residual.head<3>().cast<double>();
-    const Eigen::Vector3d own = factor.scale[k].matrix().triangularView<Eigen::Lower>().solve(scaled);
-    partial_[group].curvature += (own + toVector(known).head<3>().cast<double>()).squaredNorm();
+    partial_[group].curvature +=
+        (factor.scale[k].solve(scaled) + toVector(known).head<3>().cast<double>()).squaredNorm();
     partial_[group].square += scaled.squaredNorm();
   });
   Norms norms = {0, 0};

@@ -10,12 +10,12 @@ namespace spume::foam {
 /// blocks, each product with C^-1 A C^-T is a sweep back and a sweep forth [Eisenstat 1981]. Blocks are swept
 /// in parallel; sums are taken group by group, so the result does not depend on the number of threads.
 ///
-/// All in single precision, in the coordinates in which D is the unit matrix (IncompleteCholesky): an iteration
-/// waits for memory. What rounding leaves is for the caller to find and to improve again.
+/// All in single precision, in the coordinates in which D is the unit matrix (IncompleteCholesky): an
+/// iteration waits for memory. What rounding leaves is for the caller to find and to improve again.
 class BlockPcg {
  public:
-  /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far as
-  /// the iteration knows, or `maxIterations`. Returns the iterations made.
+  /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
+  /// as the iteration knows, or `maxIterations`. Returns the iterations made.
   int improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
               int maxIterations, Vectors3& x);
 
@@ -37,8 +37,8 @@ class BlockPcg {
     double plain, slope;  ///< |r|, r . M^-1 r
   };
 
-  int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
-              int maxIterations);
+  int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
+              double goal, int maxIterations);
   void start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
                     double momentum);

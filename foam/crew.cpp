@@ -44,7 +44,8 @@ void Crew::takeTasks(std::size_t member, std::uint32_t round) {
 /// Rounds only grow and a round ends when all its tasks have been taken: who comes late finds none left.
 void Crew::takeTask(std::size_t task, std::uint32_t round) {
   std::uint32_t last = tasks_[task].taken.load(std::memory_order_relaxed);
-  if (last >= round || !tasks_[task].taken.compare_exchange_strong(last, round, std::memory_order_acquire)) return;
+  if (last >= round || !tasks_[task].taken.compare_exchange_strong(last, round, std::memory_order_acquire))
+    return;
   call_(body_, task);
   tasks_[task].done.store(round, std::memory_order_release);
 }

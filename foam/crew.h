@@ -11,15 +11,15 @@
 
 namespace spume::foam {
 
-/// Threads that stay together through many short rounds of the same tasks. An iteration of conjugate gradients
-/// is a handful of rounds of some 100 microseconds each; waking a worker for every one of them takes as long
-/// as the second half of the work. Here helpers are called once, then watch for the next round, and a thread
-/// takes the tasks it had last time, whose data its cache still holds. Every round is finished by whoever is
-/// there: should no helper come, the leader does all.
+/// Threads that stay together through many short rounds of the same tasks. An iteration of conjugate
+/// gradients is a handful of rounds of some 100 microseconds each; waking a worker for every one of them
+/// takes as long as the second half of the work. Here helpers are called once, then watch for the next round,
+/// and a thread takes the tasks it had last time, whose data its cache still holds. Every round is finished
+/// by whoever is there: should no helper come, the leader does all.
 class Crew {
  public:
-  /// Calls work(crew) on this thread while the arena's other threads, one for each further task at most, stand
-  /// by. `tasks` is the number of tasks of every round. `work` may not throw.
+  /// Calls work(crew) on this thread while the arena's other threads, one for each further task at most,
+  /// stand by. `tasks` is the number of tasks of every round. `work` may not throw.
   template <typename Work>
   static void lead(std::size_t tasks, const Work& work) {
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());

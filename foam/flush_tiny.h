@@ -6,9 +6,9 @@
 
 namespace spume::foam {
 
-/// While it lives, numbers too small for full precision count as 0 on this thread. What a sweep in single precision
-/// carries away from where something happens falls off to nothing within some rows, and arithmetic with what has
-/// all but vanished is many times slower than with zeros.
+/// While it lives, numbers too small for full precision count as 0 on this thread. What a sweep in single
+/// precision carries away from where something happens falls off to nothing within some rows, and arithmetic
+/// with what has all but vanished is many times slower than with zeros.
 class FlushTiny {
  public:
 #if defined(__SSE__)

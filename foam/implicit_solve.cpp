@@ -79,7 +79,8 @@ int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal,
   if (std::exchange(couplingsKnown_, true)) {
     swept_.refresh(a), cholesky_.refresh(swept_);
   } else {
-    swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky), Crew::lead(swept_.groups(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
+    swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky),
+        Crew::lead(swept_.groups(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
   }
   int iterations = 0;
   for (int pass = 0; pass < kRefinements && norm > goal && iterations < maxIterations; ++pass) {

@@ -15,6 +15,15 @@ Eigen::Matrix3d sandwich(const SweptSystem::Coupling& coupling, const Eigen::Mat
   return a.dot(ma) * a * a.transpose() + c * (mixed + mixed.transpose()) + c * c * m;
 }
 
+/// The inverse of a lower triangular matrix.
+Eigen::Matrix3d inverseOf(const Eigen::Matrix3d& l) {
+  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) g(k, k) = 1 / l(k, k);
+  g(1, 0) = -l(1, 0) * g(0, 0) * g(1, 1), g(2, 1) = -l(2, 1) * g(1, 1) * g(2, 2);
+  g(2, 0) = -(l(2, 0) * g(0, 0) + l(2, 1) * g(1, 0)) * g(2, 2);
+  return g;
+}
+
 /// G^T G, the D^-1 that sweeps apply.
 Eigen::Matrix3d squareOf(const TriangularBlock& scale) {
   const Eigen::Matrix3d g = scale.matrix();
@@ -43,7 +52,7 @@ void IncompleteCholesky::refresh(const SweptSystem& a) {
 void IncompleteCholesky::setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d) {
   pivot_[k] = d, diagonal_[k] = a.diagonal[k];
   const Eigen::Matrix3d lower = d.llt().matrixL();
-  scale[k] = TriangularBlock(lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity()));
+  scale[k] = TriangularBlock(inverseOf(lower));
   const Eigen::Matrix3d g = scale[k].matrix();
   excess[k] = SymmetricBlock(g * a.diagonal[k] * g.transpose() - 2 * Eigen::Matrix3d::Identity());
 }

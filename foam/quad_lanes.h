@@ -7,8 +7,8 @@
 
 namespace spume::foam {
 
-/// Three numbers and a fourth, in single precision: half a register of the narrowest machine, a quarter of the
-/// widest. Vectors of a sweep have 0 as their fourth.
+/// Three numbers and a fourth, in single precision: half a register of the narrowest machine, a quarter of
+/// the widest. Vectors of a sweep have 0 as their fourth.
 using Quad [[gnu::vector_size(4 * sizeof(float))]] = float;
 
 /// As many quads side by side as one register of the instruction set the library is built for holds.

@@ -21,7 +21,8 @@ struct SweptSystem {
   static constexpr std::size_t kBlockRows = 4096;
   static constexpr std::size_t kAbreast = 4;  ///< blocks a thread sweeps side by side
   static constexpr std::size_t kLeastGroups = 2;
-  static constexpr std::size_t kLeastRows = 512;  ///< of a block on average: a cut costs more than it gains below
+  static constexpr std::size_t kLeastRows =
+      512;  ///< of a block on average: a cut costs more than it gains below
   /// Entries behind the last coupling, 0, that whole registers may read.
   static constexpr std::int32_t kPadding = 4;
 
@@ -46,7 +47,7 @@ struct SweptSystem {
   std::vector<std::int32_t> other;
   std::vector<Coupling> coupling;
   std::vector<Eigen::Matrix3d> diagonal;  ///< own block and all couplings [kg]
-  std::vector<std::uint8_t> changed;     ///< diagonals the last refresh() has changed
+  std::vector<std::uint8_t> changed;      ///< diagonals the last refresh() has changed
 
   std::size_t size() const { return row.size(); }
   std::size_t groups() const { return (blockStart_.size() - 1) / kAbreast; }
@@ -76,7 +77,7 @@ struct SweptSystem {
 
   std::vector<std::size_t> blockStart_ = {0};
   std::vector<std::uint32_t> blockOf_;  ///< each row's
-  std::vector<Eigen::Matrix3d> own_;  ///< of the BlockSystem, as last copied [kg]
+  std::vector<Eigen::Matrix3d> own_;    ///< of the BlockSystem, as last copied [kg]
 };
 
 /// Calls body(group, row) for the rows of each block in order. The blocks of a group go side by side, the

@@ -25,7 +25,8 @@ struct SymmetricBlock {
   }
 };
 
-/// A lower triangular 3 x 3 matrix by its six numbers; both products are three multiplications of whole quads.
+/// A lower triangular 3 x 3 matrix by its six numbers; both products are three multiplications of whole
+/// quads.
 struct TriangularBlock {
   Eigen::Vector4f straight;  ///< xx, yy, zz, 0
   Eigen::Vector4f below;     ///< yx, zy, zx, 0
@@ -46,6 +47,15 @@ struct TriangularBlock {
     const Quad s = loadQuad(straight), b = loadQuad(below);
     return s * x + __builtin_shufflevector(b, b, 3, 0, 1, 3) * __builtin_shufflevector(x, x, 3, 0, 1, 3) +
            __builtin_shufflevector(b, b, 3, 3, 2, 3) * __builtin_shufflevector(x, x, 3, 3, 0, 3);
+  }
+  /// The vector that times() takes to x.
+  Eigen::Vector3d solve(const Eigen::Vector3d& x) const {
+    const Eigen::Vector4d s = straight.cast<double>(), b = below.cast<double>();
+    Eigen::Vector3d v;
+    v.x() = x.x() / s[0];
+    v.y() = (x.y() - b[0] * v.x()) / s[1];
+    v.z() = (x.z() - b[2] * v.x() - b[1] * v.y()) / s[2];
+    return v;
   }
   Quad transposedTimes(const Quad& x) const {
     const Quad s = loadQuad(straight), b = loadQuad(below);

@@ -13,9 +13,9 @@ namespace spume::foam {
 void takePart(const FoamTopology& all, const Neighbours& neighbours, const std::vector<std::int32_t>& rows,
               const std::vector<std::int32_t>& place, FoamTopology& part);
 
-/// Puts a part measured anew back into the whole, as a measurement of the whole would have it if `whole` holds
-/// for every row of the part that has all its neighbours there: the columns of these rows, and the pairs and
-/// films with one of them. Pairs stay sorted. Keeps scratch memory.
+/// Puts a part measured anew back into the whole, as a measurement of the whole would have it if `whole`
+/// holds for every row of the part that has all its neighbours there: the columns of these rows, and the
+/// pairs and films with one of them. Pairs stay sorted. Keeps scratch memory.
 class PartReplacer {
  public:
   void putBack(const FoamTopology& part, const std::vector<std::int32_t>& rows,

@@ -10,14 +10,14 @@ namespace {
 
 /// Newton steps at most: a cell covered all but wholly grows by a quarter in each.
 constexpr int kSteps = 16;
-/// Growth of a ball that is looked after: what less cuts off a ball it has not touched before, a cap as high as
-/// the growth, is 1e-3 of its volume at most.
+/// Growth of a ball that is looked after: what less cuts off a ball it has not touched before, a cap as high
+/// as the growth, is 1e-3 of its volume at most.
 constexpr double kGrown = 0.02;
 
 }  // namespace
 
-bool VolumePatch::settle(const FoamParams& params, const std::vector<NearWalls>& walls, FoamTopology& topology,
-                         Neighbours& neighbours, BubbleStore& bubbles) {
+bool VolumePatch::settle(const FoamParams& params, const std::vector<NearWalls>& walls,
+                         FoamTopology& topology, Neighbours& neighbours, BubbleStore& bubbles) {
   radius_ = bubbles.radius;
   for (int step = 0; step < kSteps; ++step) {
     const std::vector<std::int32_t> off = cellsOff(bubbles, params.volumeTolerance);

@@ -12,8 +12,8 @@ namespace spume::foam {
 
 /// Brings the few cells that do not hold their gas yet to do so, at the cost of their surroundings alone:
 /// they and their neighbours are corrected, those around them are watched, and what cuts these is measured
-/// along. Cells that appear, vanish or change their neighbours need several more Newton steps than all others;
-/// each step is taken around what the last one has left or disturbed.
+/// along. Cells that appear, vanish or change their neighbours need several more Newton steps than all
+/// others; each step is taken around what the last one has left or disturbed.
 class VolumePatch {
  public:
   /// Corrects radii and clamped flags until all cells hold their gas to the tolerance, or no step helps any

@@ -113,6 +113,26 @@ TEST(ImplicitSolve, SolvingAgainFollowsOwnBlocksThatChanged) {
   }
 }
 
+/// Bodies lighter and lighter beside what links them, down to what single precision would lose in plain
+/// coordinates: one of a pair on its own hangs by one link and is free to move across it.
+TEST(ImplicitSolve, FindsWhatLightBodiesDoAcrossStiffLinks) {
+  constexpr double kAgreement = 1e-2, kLeastOwn = 0.5;  // no own block is softer than that times the mass
+  for (const double mass : {1.0, 1e-4, 1e-8}) {
+    BlockSystem a = randomSystem(3000, 1.0);
+    for (std::size_t e = 0; e < a.block.size(); ++e) a.block[e].across = 0;
+    for (std::size_t i = 0; i < a.size(); i += 2) a.own[i] *= mass;
+    const Vectors3 exact = randomVectors(a.size()), b = product(a, exact);
+    for (const LinearSolver kind : {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky}) {
+      Vectors3 x(a.size(), Eigen::Vector3d::Zero());
+      ImplicitSolve solver(kind);
+      const SolveReport report = solver.solve(a, b, kAgreement * kLeastOwn * mass, 20000, x);
+      EXPECT_TRUE(report.converged && !report.fellBack) << mass;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        EXPECT_LE((x[i] - exact[i]).norm(), kAgreement) << mass << ' ' << i;
+    }
+  }
+}
+
 TEST(ImplicitSolve, ThreadsDoNotChangeABit) {
   const BlockSystem a = randomSystem(5000, 1e4);  // four blocks of rows
   const Vectors3 b = randomVectors(a.size());

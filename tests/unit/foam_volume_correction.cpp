@@ -185,7 +185,8 @@ void expectSameGeometry(const FoamTopology& a, const FoamTopology& b) {
     EXPECT_TRUE(a.films[f].i == b.films[f].i && a.films[f].j == b.films[f].j);
     EXPECT_NEAR(a.films[f].area, b.films[f].area, kRoundOff * std::pow(a.films[f].distance, 2));
   }
-  for (std::size_t i = 0; i < a.volume.size(); ++i) EXPECT_NEAR(a.volume[i], b.volume[i], kRoundOff * b.volume[i]);
+  for (std::size_t i = 0; i < a.volume.size(); ++i)
+    EXPECT_NEAR(a.volume[i], b.volume[i], kRoundOff * b.volume[i]);
 }
 
 TEST(VolumeCorrection, APatchCorrectsAFewCellsAndLeavesTheRest) {
