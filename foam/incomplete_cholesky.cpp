@@ -49,10 +49,13 @@ void IncompleteCholesky::refresh(const SweptSystem& a) {
   });
 }
 
+/// Where single precision has taken more from D than there was, beside links 1e7 times stiffer than the row's
+/// own block, the diagonal does instead: any positive definite D makes a factor.
 void IncompleteCholesky::setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d) {
   pivot_[k] = d, diagonal_[k] = a.diagonal[k];
-  const Eigen::Matrix3d lower = d.llt().matrixL();
-  scale[k] = TriangularBlock(inverseOf(lower));
+  Eigen::LLT<Eigen::Matrix3d> cholesky(d);
+  if (cholesky.info() != Eigen::Success) cholesky.compute(pivot_[k] = a.diagonal[k]);
+  scale[k] = TriangularBlock(inverseOf(cholesky.matrixL()));
   const Eigen::Matrix3d g = scale[k].matrix();
   excess[k] = SymmetricBlock(g * a.diagonal[k] * g.transpose() - 2 * Eigen::Matrix3d::Identity());
 }

@@ -1,5 +1,6 @@
 #include "foam/predictor.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -129,14 +130,23 @@ double chord(double change, double distance, double scale, double tangent) {
 }
 
 /// Makes `matrix` turn the motion p = v* - v0 into the impulse that holds the bubble at v0, by a change along
-/// p alone.
+/// p alone. Where taking that much away would leave a direction in which the bubble runs off by itself, the
+/// matrix is shortened along p instead, which keeps it positive definite.
 void matchHoldingImpulse(const Vector3d& p, const Vector3d& impulse, Eigen::Matrix3d& matrix) {
   constexpr double kStill = 1e-30;  // [m/s] no motion: its square would leave the range of doubles
+  constexpr double kSafe = 0.9;     // 1 is where the difference becomes singular
   const double speed = p.norm();
   if (!(speed > kStill)) return;
   const Vector3d along = p / speed;
-  const double wanted = along.dot(impulse) / speed;
-  if (wanted > 0) matrix += (wanted - along.dot(matrix * along)) * along * along.transpose();
+  const double wanted = along.dot(impulse) / speed, has = along.dot(matrix * along);
+  if (!(wanted > 0)) return;
+  if ((has - wanted) * along.dot(matrix.inverse() * along) < kSafe) {
+    matrix += (wanted - has) * along * along.transpose();
+  } else {
+    const Eigen::Matrix3d shorten =
+        Eigen::Matrix3d::Identity() + (std::sqrt(wanted / has) - 1) * along * along.transpose();
+    matrix = (shorten * matrix * shorten).eval();
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "foam/counter_random.h"
 #include "foam/forces/buoyancy.h"
 #include "foam/predictor.h"
 #include "tests/foam_fixtures.h"
@@ -48,6 +49,22 @@ TEST(Predictor, MatrixIsSymmetricPositiveDefinite) {
       EXPECT_LE((motion.matrix - motion.matrix.transpose()).norm(), 1e-15 * motion.matrix.norm());
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(motion.matrix).eigenvalues().minCoeff(), 0);
     }
+}
+
+/// Bubbles thrown through the surface at any angle, among liquid that moves otherwise: what holds them along
+/// their change of velocity may be far less than what resists them across it.
+TEST(Predictor, MatrixStaysPositiveDefiniteHoweverABubbleIsThrown) {
+  for (std::uint64_t draw = 0; draw < 20000; ++draw) {
+    CounterRandom random(31, draw, 0);
+    const auto within = [&](double size) { return size * (2 * random.uniform() - 1); };
+    const double phi = within(1.5e-3);
+    LoneBubble b = bubbleNear(phi, {within(2), within(2), within(2)});
+    b.liquidVelocity = {within(1), within(1), within(1)};
+    b.up = Eigen::Vector3d(within(1), within(1), within(1)).normalized();
+    const LinearMotion motion = linearise(b, predictVelocity(b, 0.0167), 0.0167);
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(motion.matrix).eigenvalues().minCoeff(), 0)
+        << draw;
+  }
 }
 
 TEST(Predictor, HoldingABubbleNeedsExactlyItsForce) {
