@@ -115,11 +115,9 @@ double BlockPcg::searchBack(Crew& crew, const SweptSystem& a, const IncompleteCh
     const Quad step = direction + scale.times(known);
     known_[k] = toVector(scale.transposedTimes(step));
     s.direction = toVector(direction), s.step = toVector(step);
-    partial_[group].square += dot(residual, residual);
+    partial_[group].of[0] += dot(residual, residual);
   });
-  double slope = 0;
-  for (const Found& found : partial_) slope += found.square;
-  return slope;
+  return total(0);
 }
 
 /// Finds the image q of the search direction p.
@@ -134,16 +132,18 @@ BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const In
     known_[behind(k)] = toVector(-scale.transposedTimes(image));
     image_[k] = toVector(image);
     const Quad change = step + image;
-    Found& sums = partial_[group];
-    sums.curvature += dot(direction, change);
-    sums.alongResidual += dot(loadQuad(s.residual), change), sums.square += dot(change, change);
+    auto& [curvature, alongResidual, square] = partial_[group].of;
+    curvature += dot(direction, change);
+    alongResidual += dot(loadQuad(s.residual), change), square += dot(change, change);
   });
-  Found sums;
-  for (const Found& found : partial_) {
-    sums.curvature += found.curvature;
-    sums.alongResidual += found.alongResidual, sums.square += found.square;
-  }
-  return sums;
+  return {total(0), total(1), total(2)};
+}
+
+/// The sums of all groups, in their order.
+double BlockPcg::total(int which) const {
+  double sum = 0;
+  for (const GroupSums& group : partial_) sum += group.of[which];
+  return sum;
 }
 
 /// Goes `length` along the search direction, which it forgets, and finds the norms of the residual there.
@@ -158,14 +158,11 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
   sweepForth(crew, a, [&](std::size_t group, std::size_t k) {
     const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
     const Eigen::Vector3d scaled = state_[k].residual.head<3>().cast<double>();
-    partial_[group].curvature +=
-        (factor.scale[k].solve(scaled) + toVector(known).head<3>().cast<double>()).squaredNorm();
-    partial_[group].square += scaled.squaredNorm();
+    double* const sums = partial_[group].of;
+    sums[0] += (factor.scale[k].solve(scaled) + toVector(known).head<3>().cast<double>()).squaredNorm();
+    sums[1] += scaled.squaredNorm();
   });
-  Norms norms = {0, 0};
-  for (const Found& found : partial_) norms.plain += found.curvature, norms.slope += found.square;
-  norms.plain = std::sqrt(norms.plain);
-  return norms;
+  return {std::sqrt(total(0)), total(1)};
 }
 
 }  // namespace spume::foam

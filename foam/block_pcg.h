@@ -30,11 +30,15 @@ class BlockPcg {
   };
   /// What a search has found: p . A p, and of the residual's change A p for a step of 1 its products with the
   /// residual and itself, in the norm of M^-1.
-  struct alignas(64) Found {
+  struct Found {
     double curvature = 0, alongResidual = 0, square = 0;
   };
   struct Norms {
     double plain, slope;  ///< |r|, r . M^-1 r
+  };
+  /// Sums of a sweep over the rows of a group: up to three, as the sweep needs them. A cache line each.
+  struct alignas(64) GroupSums {
+    double of[3] = {};
   };
 
   int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
@@ -44,6 +48,7 @@ class BlockPcg {
                     double momentum);
   Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor);
   void advance(std::size_t k, float length);
+  double total(int which) const;
   Norms look(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length);
 
   /// Where the list of known vectors holds what rows behind a row have become.
@@ -53,7 +58,7 @@ class BlockPcg {
   std::vector<Eigen::Vector4f> image_;  ///< G^-T q with q = C^-1 (A - C) p
   /// What couplings act on, by SweptSystem::other: p, a 0, and -q.
   std::vector<Eigen::Vector4f> known_;
-  std::vector<Found> partial_;  ///< sums by group, a cache line apart
+  std::vector<GroupSums> partial_;  ///< by group
 };
 
 }  // namespace spume::foam

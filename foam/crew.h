@@ -12,10 +12,10 @@
 namespace spume::foam {
 
 /// Threads that stay together through many short rounds of the same tasks. An iteration of conjugate
-/// gradients is a handful of rounds of some 100 microseconds each; waking a worker for every one of them
-/// takes as long as the second half of the work. Here helpers are called once, then watch for the next round,
-/// and a thread takes the tasks it had last time, whose data its cache still holds. Every round is finished
-/// by whoever is there: should no helper come, the leader does all.
+/// gradients is two rounds of some 100 microseconds each, which waking a worker for every one of them would
+/// lengthen. Here helpers are called once, then watch for the next round, and a thread takes the tasks it had
+/// last time, whose data its cache still holds. Every round is finished by whoever is there: should no helper
+/// come, the leader does all.
 class Crew {
  public:
   /// Calls work(crew) on this thread while the arena's other threads, one for each further task at most,

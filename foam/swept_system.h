@@ -21,8 +21,8 @@ struct SweptSystem {
   static constexpr std::size_t kBlockRows = 4096;
   static constexpr std::size_t kAbreast = 4;  ///< blocks a thread sweeps side by side
   static constexpr std::size_t kLeastGroups = 2;
-  static constexpr std::size_t kLeastRows =
-      512;  ///< of a block on average: a cut costs more than it gains below
+  /// Rows of a block on average, at least: below, a cut costs more than it gains.
+  static constexpr std::size_t kLeastRows = 512;
   /// Entries behind the last coupling, 0, that whole registers may read.
   static constexpr std::int32_t kPadding = 4;
 

@@ -10,8 +10,9 @@ namespace {
 
 /// Newton steps at most: a cell covered all but wholly grows by a quarter in each.
 constexpr int kSteps = 16;
-/// Growth of a ball that is looked after: what less cuts off a ball it has not touched before, a cap as high
-/// as the growth, is 1e-3 of its volume at most.
+/// Growth of a ball that is looked after. What less cuts off a ball of its own size that it has not touched
+/// before, a cap as high as the growth, is below 1e-3 of that one's volume; off a much smaller one it may be
+/// more, and the next step's measurement finds it.
 constexpr double kGrown = 0.02;
 
 }  // namespace
