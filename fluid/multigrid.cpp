@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fluid/pressure_rows.h"
+#include "fluid/slab_tiles.h"
 
 namespace spume::fluid {
 namespace {
@@ -16,8 +17,13 @@ constexpr int kCoarsestSweeps = 6;
 // twice: for the dam break of performance.md at 64^3 and 128^3 that takes 6.9 and 7.3 iterations of CG to
 // 1e-6, three sweeps and one visit take 7.5 and 8.0.
 constexpr int kFineSweeps = 2, kCoarseSweeps = 1;
+static_assert(kTileSlabs >= 4 * std::max(kFineSweeps, kCoarseSweeps),
+              "a tile is too narrow for its half sweeps");
 // Cells of a row handled at once: what is made of them on the way stays in the first-level cache.
 constexpr int kPiece = 128;
+// A level of as many slabs is one tile, unless it has more rows than one thread should do alone.
+constexpr int kFewSlabs = 2 * kTileSlabs;
+constexpr std::size_t kFewRows = 256;
 constexpr int kRed = 0, kBlack = 1;  // parities of i + j + k
 
 /// One coarse weight or excess: half the sum of the fine values at the given offsets.
@@ -140,60 +146,82 @@ void Multigrid::aggregate(const PressureMatrix& fine, PressureMatrix& coarse) {
 }
 
 void Multigrid::cycle() {
-  Level& level = levels_.front();
-  startSmooth(level);
-  level.border.start(pocketRhs_);
-  finishCycle(0);
+  levels_.front().border.start(pocketRhs_);
+  partCycle(0, HalfSweep::start);
 }
 
-/// Solves for the residual of the finer level, from 0.
+/// Solves for the residual of the finer level, from 0, in two V cycles.
 void Multigrid::visit(std::size_t depth) {
   Level& level = levels_[depth];
-  startSmooth(level);
   level.border.start({});  // the finer level's pockets were relaxed last: no residual is left there
-  finishCycle(depth);
+  partCycle(depth, HalfSweep::start);
   if (depth + 1 == levels_.size()) return;
   level.border.relax(level.x, level.rhs);
-  smooth(level, kRed);
-  finishCycle(depth);
+  partCycle(depth, HalfSweep::red);
 }
 
-/// A cycle from its first red sweep on.
-void Multigrid::finishCycle(std::size_t depth) {
+/// Smooths, corrects from the coarser levels, smooths.
+void Multigrid::partCycle(std::size_t depth, HalfSweep first) {
   Level& level = levels_[depth];
   const int sweeps = depth + 1 == levels_.size() ? kCoarsestSweeps : depth == 0 ? kFineSweeps : kCoarseSweeps;
-  smooth(level, kBlack);
-  level.border.relax(level.x, level.rhs);
-  for (int n = 1; n < sweeps; ++n) {
-    smooth(level, kRed), smooth(level, kBlack);
-    level.border.relax(level.x, level.rhs);
-  }
+  smoothDown(level, first, sweeps);
   if (depth + 1 < levels_.size()) {
     restrictResidual(level, levels_[depth + 1]);
     visit(depth + 1);
     addCorrection(levels_[depth + 1], level);
   }
-  for (int n = 0; n < sweeps; ++n) {
+  smoothUp(level, sweeps);
+}
+
+/// Red before black, then the pockets.
+void Multigrid::smoothDown(Level& level, HalfSweep first, int sweeps) {
+  const int together = level.border.empty() ? sweeps : 1;
+  for (int done = 0; done < sweeps; done += together) {
+    sweep(level, 2 * together, done == 0 ? first : HalfSweep::red, HalfSweep::black);
     level.border.relax(level.x, level.rhs);
-    smooth(level, kBlack), smooth(level, kRed);
   }
 }
 
-/// The first red sweep from x = 0.
-void Multigrid::startSmooth(Level& level) {
-  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
-    startPiece(&level.matrix.inverseDiagonal(row.i, row.j, row.begin), &level.rhs(row.i, row.j, row.begin),
-               (row.i + row.j + row.begin) & 1, row.end - row.begin, &level.x(row.i, row.j, row.begin));
+/// The same backwards.
+void Multigrid::smoothUp(Level& level, int sweeps) {
+  const int together = level.border.empty() ? sweeps : 1;
+  for (int done = 0; done < sweeps; done += together) {
+    level.border.relax(level.x, level.rhs);
+    sweep(level, 2 * together, HalfSweep::black, HalfSweep::red);
+  }
+}
+
+/// `halves` half sweeps in turns, the first one of them `first`.
+void Multigrid::sweep(Level& level, int halves, HalfSweep first, HalfSweep second) {
+  const PressureMatrix& m = level.matrix;
+  const auto halfAt = [&](int n) {
+    const HalfSweep again = first == HalfSweep::start ? HalfSweep::red : first;
+    return n == 0 ? first : n % 2 == 0 ? again : second;
+  };
+  const int slabs = m.cells().x();
+  if (slabs <= kFewSlabs && m.rows.size() > kFewRows) {
+    for (int n = 0; n < halves; ++n)
+      forEachActiveRow(m.rows, [&](const ActiveRow& row) { relax(level, halfAt(n), row); });
+    return;
+  }
+  const int rows = m.cells().y();
+  SlabTiles(slabs, rows, halves).sweep([&](int n, int slab, int begin, int end) {
+    const HalfSweep half = halfAt(n);
+    for (int row = m.rowStart[slab * rows + begin]; row < m.rowStart[slab * rows + end]; ++row)
+      relax(level, half, m.rows[row]);
   });
 }
 
-void Multigrid::smooth(Level& level, int colour) {
-  forEachActiveRow(level.matrix.rows, [&](const ActiveRow& row) {
-    const auto at = level.matrix.excess.index(row.i, row.j, row.begin);
-    float* x = level.x.data() + at;
-    relaxRow(level.matrix, at, (row.i + row.j + row.begin + colour) & 1, row.end - row.begin,
-             level.rhs.data() + at, x);
-  });
+void Multigrid::relax(Level& level, HalfSweep half, const ActiveRow& row) {
+  const auto at = level.matrix.excess.index(row.i, row.j, row.begin);
+  const int colour = half == HalfSweep::black ? kBlack : kRed;
+  const int parity = (row.i + row.j + row.begin + colour) & 1, count = row.end - row.begin;
+  const float* rhs = level.rhs.data() + at;
+  float* x = level.x.data() + at;
+  if (half == HalfSweep::start)
+    startPiece(level.matrix.inverseDiagonal.data() + at, rhs, parity, count, x);
+  else
+    relaxRow(level.matrix, at, parity, count, rhs, x);
 }
 
 void Multigrid::restrictResidual(const Level& fine, Level& coarse) {

@@ -41,10 +41,14 @@ class Multigrid {
     explicit Level(const Eigen::Vector3i& cells) : matrix(cells), x(cells), rhs(cells) {}
   };
   void visit(std::size_t depth);
-  void finishCycle(std::size_t depth);
+  /// Half a sweep of Gauss-Seidel. `start` is a red one from x = 0.
+  enum class HalfSweep { start, red, black };
+  void partCycle(std::size_t depth, HalfSweep first);
   static void aggregate(const PressureMatrix& fine, PressureMatrix& coarse);
-  static void startSmooth(Level& level);
-  static void smooth(Level& level, int colour);
+  static void smoothDown(Level& level, HalfSweep first, int sweeps);
+  static void smoothUp(Level& level, int sweeps);
+  static void sweep(Level& level, int halves, HalfSweep first, HalfSweep second);
+  static void relax(Level& level, HalfSweep half, const ActiveRow& row);
   static void restrictResidual(const Level& fine, Level& coarse);
   static void restrictPiece(const Level& fine, Level& coarse, const ActiveRow& piece);
   static void addCorrection(const Level& coarse, Level& fine);

@@ -21,6 +21,7 @@ class PocketBorder {
   /// Half the sum of the finer couplings, as for the cells.
   void coarsen(const PocketBorder& fine);
 
+  bool empty() const { return diagonal_.empty(); }
   /// All pockets at 0, with these right-hand sides, or 0 if there are none.
   void start(const std::vector<float>& rhs);
   /// Gauss-Seidel step of the pockets: each takes the value that its residual vanishes with, and `rhs` of the

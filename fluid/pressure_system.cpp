@@ -1,6 +1,7 @@
 #include "fluid/pressure_system.h"
 
 #include <functional>
+#include <numeric>
 
 #include "fluid/pressure_rows.h"
 
@@ -59,6 +60,9 @@ void PressureMatrix::finish() {
     rows[i * ny + j] = invertRow(i, j, diagonal, nz);
   });
   std::erase_if(rows, [](const ActiveRow& row) { return row.begin >= row.end; });
+  rowStart.assign(static_cast<std::size_t>(nx) * ny + 1, 0);
+  for (const ActiveRow& row : rows) rowStart[row.i * ny + row.j + 1] = 1;
+  std::partial_sum(rowStart.begin(), rowStart.end(), rowStart.begin());
 }
 
 double PressureMatrix::multiply(const DenseField<double>& x, DenseField<double>& y) const {

@@ -22,11 +22,12 @@ struct PressureMatrix {
   DenseField<float> excess;                 ///< coupling to a known pressure, at the surface or outside [-]
   DenseField<float> inverseDiagonal;        ///< 0 where there is no unknown
   std::vector<ActiveRow> rows;              ///< in order of (i, j)
+  std::vector<int> rowStart;  ///< the first of `rows` at (i, j) or later, at i ny + j; and their number
 
   explicit PressureMatrix(const Eigen::Vector3i& cells);
   const Eigen::Vector3i& cells() const { return excess.size(); }
 
-  /// Computes inverseDiagonal and rows from weight and excess.
+  /// Computes inverseDiagonal, rows and rowStart from weight and excess.
   void finish();
 
   /// y = A x on the unknowns; returns x.y.

@@ -2,6 +2,7 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "fluid/conjugate_gradient.h"
 #include "fluid/multigrid.h"
 #include "fluid/pocket_unknowns.h"
+#include "fluid/slab_tiles.h"
 
 namespace spume::fluid {
 namespace {
@@ -80,6 +82,40 @@ PocketUnknowns pocketsIn(PressureMatrix& matrix, const std::vector<Eigen::Vector
   matrix.finish();
   pockets.finish();
   return pockets;
+}
+
+/// A plane of numbers on which pass n changes the points of parity n by what lies beside them.
+struct Chequers {
+  int slabs, rows;
+  std::vector<std::uint32_t> value;
+  Chequers(int s, int r) : slabs(s), rows(r), value(static_cast<std::size_t>(s) * r) {
+    for (std::size_t n = 0; n < value.size(); ++n) value[n] = static_cast<std::uint32_t>(n * n);
+  }
+  std::uint32_t at(int i, int j) const {
+    return i < 0 || j < 0 || i >= slabs || j >= rows ? 7 : value[static_cast<std::size_t>(i) * rows + j];
+  }
+  void pass(int n, int slab, int begin, int end) {
+    for (int j = begin; j < end; ++j)
+      if ((slab + j + n) % 2 == 0)
+        value[static_cast<std::size_t>(slab) * rows + j] = 3 * at(slab, j) + 5 * at(slab - 1, j) +
+                                                           7 * at(slab + 1, j) + 11 * at(slab, j - 1) +
+                                                           13 * at(slab, j + 1);
+  }
+};
+
+TEST(SlabTiles, GivesWhatPassesOneAfterTheOtherGive) {
+  for (const int slabs : {1, 8, 17, 24, 39, 64})
+    for (const int rows : {1, 31, 32, 33, 100})
+      for (const int passes : {1, 2, 4}) {
+        Chequers plain(slabs, rows), tiled(slabs, rows);
+        for (int n = 0; n < passes; ++n)
+          for (int slab = 0; slab < slabs; ++slab) plain.pass(n, slab, 0, rows);
+        SlabTiles(slabs, rows, passes).sweep([&](int n, int slab, int begin, int end) {
+          tiled.pass(n, slab, begin, end);
+        });
+        EXPECT_EQ(plain.value, tiled.value)
+            << slabs << " slabs, " << rows << " rows, " << passes << " passes";
+      }
 }
 
 TEST(Multigrid, CycleIsSymmetricAndPositive) {
