@@ -127,9 +127,11 @@ float liquidFractionAround(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj,
   const float shift = std::clamp(laplacian(p, si, sj), -kMaxLaplacian * dx, kMaxLaplacian * dx) / 12;
   Octants octants;
   findOctants(p, si, sj, shift, octants);
-  double sum = 0;
+  alignas(64) double wet[8];
   for (int n = 0; n < 8; ++n)
-    sum += planeFraction(octants.value[n], octants.gx[n], octants.gy[n], octants.gz[n]);
+    wet[n] = planeFraction(octants.value[n], octants.gx[n], octants.gy[n], octants.gz[n]);
+  double sum = 0;
+  for (const double part : wet) sum += part;
   return static_cast<float>(sum / 8);
 }
 
