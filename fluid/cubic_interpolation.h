@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 
@@ -23,29 +24,33 @@ struct CubicValue {
 };
 inline CubicValue cubicValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float tx, float ty,
                              float tz) {
+  using Row = Eigen::Array4f;  // the four values along z, summed over rows first and weighted last
   const auto wx = cubicWeights(tx), wy = cubicWeights(ty), wz = cubicWeights(tz);
   const auto dx = cubicSlopeWeights(tx), dy = cubicSlopeWeights(ty), dz = cubicSlopeWeights(tz);
-  CubicValue sum{};
+  Row value = Row::Zero(), alongX = Row::Zero(), alongY = Row::Zero();
   for (int i = 0; i < 4; ++i) {
-    float value = 0, gy = 0, gz = 0;
+    Row onPlane = Row::Zero(), slope = Row::Zero();
     for (int j = 0; j < 4; ++j) {
-      const float* row = p + (i - 1) * si + (j - 1) * sj - 1;
-      const float onRow = wz[0] * row[0] + wz[1] * row[1] + wz[2] * row[2] + wz[3] * row[3];
-      value += wy[j] * onRow;
-      gy += dy[j] * onRow;
-      gz += wy[j] * (dz[0] * row[0] + dz[1] * row[1] + dz[2] * row[2] + dz[3] * row[3]);
+      const Row row = Eigen::Map<const Row>(p + (i - 1) * si + (j - 1) * sj - 1);
+      onPlane += wy[j] * row;
+      slope += dy[j] * row;
     }
-    sum.value += wx[i] * value;
-    sum.gx += dx[i] * value;
-    sum.gy += wx[i] * gy;
-    sum.gz += wx[i] * gz;
+    value += wx[i] * onPlane;
+    alongX += dx[i] * onPlane;
+    alongY += wx[i] * slope;
   }
-  return sum;
+  const auto weighted = [](const std::array<float, 4>& w, const Row& row) {
+    return w[0] * row[0] + w[1] * row[1] + w[2] * row[2] + w[3] * row[3];
+  };
+  return {weighted(wz, value), weighted(wz, alongX), weighted(wz, alongY), weighted(dz, value)};
 }
 
 /// Second difference that both ends of an edge agree on: their harmonic mean, 0 where the signs differ. It is
 /// the curvature where phi is smooth and vanishes where one end sits on a kink.
-inline float agreedBend(float a, float b) { return a * b > 0 ? 2 * a * b / (a + b) : 0; }
+inline float agreedBend(float a, float b) {
+  const float product = a * b, mean = 2 * product / (a + b);
+  return product > 0 ? mean : 0;
+}
 
 /// Value and gradient of the trilinear interpolant of the eight values of that cube, bent along each axis by
 /// the second differences that the ends of its four edges agree on [after Min, Gibou 2007, Eq. 12]: third
@@ -54,12 +59,15 @@ inline float agreedBend(float a, float b) { return a * b > 0 ? 2 * a * b / (a + 
 inline CubicValue limitedValue(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj, float tx, float ty,
                                float tz) {
   const auto mix = [](float a, float b, float t) { return a + t * (b - a); };
-  const auto bend = [](const float* q, std::ptrdiff_t s) { return q[s] - 2 * q[0] + q[-s]; };
-  const auto cubeBend = [&](std::ptrdiff_t s, std::ptrdiff_t t, std::ptrdiff_t u) {
-    float sum = 0;
-    for (const std::ptrdiff_t corner : {std::ptrdiff_t{0}, t, u, t + u})
-      sum += agreedBend(bend(p + corner, s), bend(p + corner + s, s));
-    return 0.25f * sum;
+  const auto cubeBend = [p](std::ptrdiff_t s, std::ptrdiff_t t, std::ptrdiff_t u) {
+    const std::ptrdiff_t edge[4] = {0, t, u, t + u};
+    float along[4][4], agreed[4];  // the four values in line with an edge, edges side by side
+    for (int n = 0; n < 4; ++n)
+      for (int m = 0; m < 4; ++m) along[m][n] = p[edge[n] + (m - 1) * s];
+    for (int n = 0; n < 4; ++n)
+      agreed[n] = agreedBend(along[2][n] - 2 * along[1][n] + along[0][n],
+                             along[3][n] - 2 * along[2][n] + along[1][n]);
+    return 0.25f * (agreed[0] + agreed[1] + agreed[2] + agreed[3]);
   };
   const float bx = cubeBend(si, sj, 1), by = cubeBend(sj, si, 1), bz = cubeBend(1, si, sj);
   const float c00 = mix(p[0], p[1], tz), c01 = mix(p[sj], p[sj + 1], tz);
