@@ -9,6 +9,7 @@
 #include "fluid/kinks.h"
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
+#include "fluid/sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -105,22 +106,36 @@ ClosestPoint closestPoint(const Neighbourhood& phi, float maxDistance) {
   return y;
 }
 
-/// Distance from a point at offset r from the seed to the patch around it [cells].
-template <typename Seed>
-float patchDistance(const Seed& s, float rx, float ry, float rz) {
+/// Distance from a point to the patch around a seed [cells]. Without branches: a loop over it vectorises.
+float patchDistance(const SurfaceSeed& s, float x, float y, float z) {
+  const float rx = x - s.x, ry = y - s.y, rz = z - s.z;
   const float h = rx * s.nx + ry * s.ny + rz * s.nz;
   const float tx = rx - h * s.nx, ty = ry - h * s.ny, tz = rz - h * s.nz;
-  const float tangential = std::sqrt(tx * tx + ty * ty + tz * tz);
-  const float onPatch = std::min(tangential, s.reach);
-  if (onPatch <= 0) return std::sqrt(rx * rx + ry * ry + rz * rz);
+  const float square = tx * tx + ty * ty + tz * tz, tangential = std::sqrt(square);
+  const float onPatch = smaller(tangential, s.reach);
   const float bend = (s.xx * tx * tx + s.yy * ty * ty + s.zz * tz * tz +
                       2 * (s.xy * tx * ty + s.yz * ty * tz + s.zx * tz * tx)) /
-                     (tangential * tangential);
+                     square;
   // The surface falls away by bend t^2/2 at t; parallel surfaces at distance h have curvature bend/(1 + h
   // bend).
-  const float height = h + 0.5f * bend * onPatch * onPatch / std::max(1 + h * bend, 0.3f);
+  const float height = h + 0.5f * bend * onPatch * onPatch / larger(1 + h * bend, 0.3f);
   const float beyond = tangential - onPatch;
-  return beyond > 0 ? std::sqrt(height * height + beyond * beyond) : std::abs(height);
+  const float toEdge = std::sqrt(height * height + beyond * beyond);
+  const float toPatch = beyond > 0 ? toEdge : std::abs(height);
+  const float toPoint = std::sqrt(rx * rx + ry * ry + rz * rz);
+  return onPatch > 0 ? toPatch : toPoint;
+}
+
+/// Distance of each cell of a row to the patch around its seed, `band` where it has none. On its own so that
+/// nothing it reads can alias what it writes.
+[[gnu::noinline]] void patchDistances(const SurfaceSeed* __restrict seeds,
+                                      const std::int32_t* __restrict seedOf, float x, float y, float z,
+                                      float band, int count, float* __restrict distance) {
+  for (int n = 0; n < count; ++n) {
+    const std::int32_t known = seedOf[n] < 0 ? 0 : seedOf[n];
+    const float toPatch = patchDistance(seeds[known], x, y, z + static_cast<float>(n));
+    distance[n] = seedOf[n] < 0 ? band : smaller(toPatch, band);
+  }
 }
 
 /// Cells looked at together: a loop over them vectorises into gathers.
@@ -231,15 +246,15 @@ float slopeAcross(const float* p, int step) {
 }
 
 /// The closest point of the plane that the values of the cell's own side make.
-Reinitializer::Seed Reinitializer::findSeedBesideWall(const DenseField<float>& phi,
-                                                      const Eigen::Vector3i& cell) const {
+SurfaceSeed Reinitializer::findSeedBesideWall(const DenseField<float>& phi,
+                                              const Eigen::Vector3i& cell) const {
   WallSides::Block block = solids_->sides.read(phi, cell);
   const float* p = &block[WallSides::kCentre];
   const Eigen::Vector3f gradient(slopeAcross(p, 9), slopeAcross(p, 3), slopeAcross(p, 1));
   const Crossing crossing = nearestCrossing(p, {9, 3, 1});
   const Eigen::Vector3f centre = cell.cast<float>();
   const float slope = gradient.norm();
-  Seed seed{};
+  SurfaceSeed seed{};
   Eigen::Vector3f at = centre;
   if (slope > 0 && std::abs(p[0]) <= kCrossingSlack * crossing.distance * slope) {
     const Eigen::Vector3f normal = gradient / slope;
@@ -253,14 +268,14 @@ Reinitializer::Seed Reinitializer::findSeedBesideWall(const DenseField<float>& p
   return seed;
 }
 
-Reinitializer::Seed Reinitializer::findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const {
+SurfaceSeed Reinitializer::findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const {
   if (solids_ && solids_->sides.guard(cell) & WallSides::kByWall) return findSeedBesideWall(phi, cell);
   const std::ptrdiff_t si = phi.stride(0), sj = phi.stride(1);
   const float* p = &phi(cell);
   const Eigen::Vector3f centre = cell.cast<float>();
   const Crossing crossing = nearestCrossing(p, {si, sj, 1});
   const ClosestPoint y = closestPoint({phi, kinks_, cell}, crossing.distance);
-  Seed seed{};
+  SurfaceSeed seed{};
   if (!y.found) {
     Eigen::Vector3f at = centre;
     at[crossing.axis] += crossing.direction * crossing.distance;
@@ -330,20 +345,23 @@ void Reinitializer::spreadLayer(int layer, bool outwardsOnly) {
 
 void Reinitializer::measure(DenseField<float>& phi) const {
   const float dx = static_cast<float>(grid_.dx), same = kSameDistance * dx;
-  const float band = kLevelSetBand;
+  const SurfaceSeed none{};
+  const SurfaceSeed* seeds = seeds_.empty() ? &none : seeds_.data();
   forEachRow(grid_.cells, [&](int i, int j) {
-    const std::int32_t* seedOf = &seedOf_(i, j, 0);
     const std::uint8_t* mark = &layers_.marks()(i, j, 0);
     float* p = &phi(i, j, 0);
-    for (int k = 0; k < grid_.cells.z(); ++k) {
-      if (mark[k] == LayerList::kBarred) continue;
-      float distance = band;
-      if (seedOf[k] >= 0) {
-        const Seed& s = seeds_[seedOf[k]];
-        distance = std::min(patchDistance(s, i - s.x, j - s.y, k - s.z), band);
+    alignas(64) float distance[kBatch];
+    for (int first = 0; first < grid_.cells.z(); first += kBatch) {
+      const int end = std::min(first + kBatch, grid_.cells.z());
+      patchDistances(seeds, &seedOf_(i, j, first), static_cast<float>(i), static_cast<float>(j),
+                     static_cast<float>(first), kLevelSetBand, end - first, distance);
+      for (int k = first; k < end; ++k) {
+        const float size = dx * distance[k - first];
+        const bool barred = mark[k] == LayerList::kBarred;
+        const bool keeps = std::abs(std::abs(p[k]) - size) < (mark[k] == 0 ? same : kSamePlace * dx);
+        const float moved = p[k] < 0 ? -size : size;
+        p[k] = barred || keeps ? p[k] : moved;
       }
-      if (std::abs(std::abs(p[k]) - dx * distance) < (mark[k] == 0 ? same : kSamePlace * dx)) continue;
-      p[k] = p[k] < 0 ? -dx * distance : dx * distance;
     }
   });
 }

@@ -10,6 +10,14 @@
 
 namespace spume::fluid {
 
+/// A closest point: lengths in cells, positions in index units.
+struct SurfaceSeed {
+  float x, y, z;                 ///< on the surface
+  float nx, ny, nz;              ///< unit normal, towards phi > 0
+  float xx, yy, zz, xy, yz, zx;  ///< second derivatives of the distance [1/cells]
+  float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
+};
+
 /// Makes phi a signed distance again within kLevelSetBand cells without moving the surface; beyond, +-band
 /// with the sign kept. Every cell beside the surface finds its closest point on the cubic interpolant of phi
 /// [Saye 2014]; these points then spread outwards layer by layer, each with its normal and curvature, and a
@@ -24,15 +32,8 @@ class Reinitializer {
   void apply(DenseField<float>& phi, const SolidBoundary* solids = nullptr);
 
  private:
-  /// A closest point: lengths in cells, positions in index units.
-  struct Seed {
-    float x, y, z;                 ///< on the surface
-    float nx, ny, nz;              ///< unit normal, towards phi > 0
-    float xx, yy, zz, xy, yz, zx;  ///< second derivatives of the distance [1/cells]
-    float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
-  };
-  Seed findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
-  Seed findSeedBesideWall(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
+  SurfaceSeed findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
+  SurfaceSeed findSeedBesideWall(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
   void markBesideWalls(const DenseField<float>& phi);
   void markInterface(const DenseField<float>& phi, const SolidBoundary* solids);
   void plantSeeds(const DenseField<float>& phi);
@@ -43,7 +44,7 @@ class Reinitializer {
   const SolidBoundary* solids_ = nullptr;  ///< of the call under way
   LayerList layers_;
   DenseField<std::uint8_t> kinks_;
-  std::vector<Seed> seeds_;  ///< of the cells of layer 0, in their order
+  std::vector<SurfaceSeed> seeds_;  ///< of the cells of layer 0, in their order
   std::vector<float> seedX_, seedY_,
       seedZ_;                        ///< where they lie, apart: what the search for the nearest one reads
   DenseField<std::int32_t> seedOf_;  ///< nearest seed known to a cell, -1 for none
