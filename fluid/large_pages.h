@@ -27,4 +27,12 @@ struct LargePageAllocator {
 template <typename T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
 
+/// Resizes; memory grows by a quarter more than is asked for, so that a number that rises slowly does not
+/// move to new pages each time.
+template <typename T>
+void resizeWithRoom(LargeVector<T>& v, std::size_t n) {
+  if (n > v.capacity()) v.reserve(n + n / 4);
+  v.resize(n);
+}
+
 }  // namespace spume::fluid

@@ -34,7 +34,11 @@ class MarkerSorter {
   void compact(MarkerSet& markers);
   /// Drops removed markers and sorts the others by cell (x slowest, z fastest), stable inside a cell.
   void sort(MarkerSet& markers);
-  /// After `sort`: first marker of a cell; cell numbers as `cellNumber`, one past the last is the total.
+  /// After `sort`: drops what has been removed since, and puts new markers in their places. `added[i]` holds
+  /// those of slab i (cells of one x), sorted by cell; in a cell they come last. As fast as copying.
+  void insert(const std::vector<MarkerSet>& added, MarkerSet& markers);
+  /// After `sort`, until markers are added or removed: first marker of a cell; cell numbers as `cellNumber`,
+  /// one past the last is the total.
   const LargeVector<std::int32_t>& cellStart() const { return cellStart_; }
   /// Number of the cell that holds a position in cell units, clamped to the grid.
   std::int32_t cellNumber(float x, float y, float z) const;
@@ -44,12 +48,19 @@ class MarkerSorter {
   std::vector<std::int32_t> placeSlabs();
   void sortSlab(int slab, std::int32_t begin, std::int32_t end);
   void permute(MarkerSet& markers);
+  /// Markers that stay together: of the sorted set, or of those added to the slab.
+  struct Run {
+    bool isNew;
+    std::int32_t begin, end;
+  };
+  void findRuns(int slab, const MarkerSet& markers, const MarkerSet& added);
 
   Eigen::Vector3i cells_;
   LargeVector<std::int32_t> cellStart_, cellOf_, order_, next_;
   LargeVector<std::int32_t> bySlab_;  // numbers of the markers, slab after slab of cells
   std::vector<std::int32_t> place_;   // [chunk][slab]: markers, then place of the next one in bySlab_
   std::vector<std::vector<std::size_t>> gone_;  // of each chunk
+  std::vector<std::vector<Run>> runs_;          // of each slab of cells
   LargeVector<float> column_;
   LargeVector<std::uint8_t> flags_;
 };

@@ -165,7 +165,7 @@ void MarkerSeeder::addMissing(const Side& side, std::int64_t subStep, MarkerSet&
         if (missing_[cell] > 0) placed(i, j, k, cell, slabs_[i]);
       }
   });
-  for (const MarkerSet& slab : slabs_) markers.append(slab);
+  sorter_.insert(slabs_, markers);
 }
 
 void MarkerSeeder::markDoubt(const Eigen::Vector3i& cells, const MarkerSet& markers) {
@@ -192,7 +192,6 @@ void MarkerSeeder::reseed(const MarkerScene& scene, const DenseField<float>& phi
     sorter_.sort(markers);
     removeSurplus(side, markers);
     addMissing(side, subStep, markers);
-    sorter_.sort(markers);
   }
 }
 

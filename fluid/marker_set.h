@@ -23,14 +23,7 @@ struct MarkerSet {
     visit(x), visit(y), visit(z), visit(radius), visit(gas), visit(escaped);
   }
   void resize(std::size_t n) {
-    forEachColumn([n](auto& column) { column.resize(n); });
-  }
-  void append(const MarkerSet& other) {
-    const auto join = [](auto& column, const auto& more) {
-      column.insert(column.end(), more.begin(), more.end());
-    };
-    join(x, other.x), join(y, other.y), join(z, other.z), join(radius, other.radius);
-    join(gas, other.gas), join(escaped, other.escaped);
+    forEachColumn([n](auto& column) { resizeWithRoom(column, n); });
   }
   /// Appends a marker with no gas, on its own side.
   void append(float px, float py, float pz, float r) {

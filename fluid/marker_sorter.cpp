@@ -47,7 +47,7 @@ void MarkerSorter::compact(MarkerSet& markers) {
 void MarkerSorter::countInSlabs(const MarkerSet& markers) {
   const std::size_t count = markers.size(), slabs = cells_.x();
   const std::int32_t perSlab = cells_.y() * cells_.z();
-  cellOf_.resize(count);
+  resizeWithRoom(cellOf_, count);
   place_.assign((count + kMarkerChunk - 1) / kMarkerChunk * slabs, 0);
   forEachMarkerChunk(count, [&](std::size_t first, std::size_t last) {
     std::int32_t* inSlab = &place_[first / kMarkerChunk * slabs];
@@ -93,8 +93,8 @@ void MarkerSorter::sort(MarkerSet& markers) {
   const std::vector<std::int32_t> slabStart = placeSlabs();
   const std::size_t slabs = cells_.x();
   const std::int32_t perSlab = cells_.y() * cells_.z(), cells = cells_.prod();
-  bySlab_.resize(slabStart.back());
-  order_.resize(slabStart.back());
+  resizeWithRoom(bySlab_, slabStart.back());
+  resizeWithRoom(order_, slabStart.back());
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     std::int32_t* place = &place_[first / kMarkerChunk * slabs];
     for (std::size_t n = first; n < last; ++n)
@@ -109,7 +109,7 @@ void MarkerSorter::sort(MarkerSet& markers) {
 
 void MarkerSorter::permute(MarkerSet& markers) {
   const auto reorder = [&](auto& column, auto& scratch) {
-    scratch.resize(order_.size());
+    resizeWithRoom(scratch, order_.size());
     forEachMarkerChunk(order_.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t n = first; n < last; ++n) scratch[n] = column[order_[n]];
     });
@@ -118,6 +118,51 @@ void MarkerSorter::permute(MarkerSet& markers) {
   for (LargeVector<float>* column : {&markers.x, &markers.y, &markers.z, &markers.radius, &markers.gas})
     reorder(*column, column_);
   reorder(markers.escaped, flags_);
+}
+
+/// The runs of a slab of cells, in the order of the cells.
+void MarkerSorter::findRuns(int slab, const MarkerSet& markers, const MarkerSet& added) {
+  std::vector<Run>& runs = runs_[slab];
+  runs.clear();
+  const auto append = [&](bool isNew, std::int32_t n) {
+    if (!runs.empty() && runs.back().isNew == isNew && runs.back().end == n)
+      ++runs.back().end;
+    else
+      runs.push_back({isNew, n, n + 1});
+  };
+  const std::int32_t perSlab = cells_.y() * cells_.z(), count = static_cast<std::int32_t>(added.size());
+  std::int32_t next = 0;
+  for (std::int32_t cell = slab * perSlab; cell < (slab + 1) * perSlab; ++cell) {
+    for (std::int32_t n = cellStart_[cell]; n < cellStart_[cell + 1]; ++n)
+      if (!std::isnan(markers.x[n])) append(false, n);
+    for (; next < count && cellNumber(added.x[next], added.y[next], added.z[next]) == cell; ++next)
+      append(true, next);
+  }
+}
+
+void MarkerSorter::insert(const std::vector<MarkerSet>& added, MarkerSet& markers) {
+  const int slabs = cells_.x();
+  runs_.resize(slabs);
+  tbb::parallel_for(0, slabs, [&](int slab) { findRuns(slab, markers, added[slab]); });
+  std::vector<std::int32_t> start(slabs + 1, 0);
+  for (int slab = 0; slab < slabs; ++slab) {
+    start[slab + 1] = start[slab];
+    for (const Run& run : runs_[slab]) start[slab + 1] += run.end - run.begin;
+  }
+  const auto string = [&](auto column, auto& scratch) {
+    resizeWithRoom(scratch, start[slabs]);
+    tbb::parallel_for(0, slabs, [&](int slab) {
+      auto to = scratch.begin() + start[slab];
+      for (const Run& run : runs_[slab]) {
+        const auto from = ((run.isNew ? added[slab] : markers).*column).begin();
+        to = std::copy(from + run.begin, from + run.end, to);
+      }
+    });
+    (markers.*column).swap(scratch);
+  };
+  for (const auto column : {&MarkerSet::x, &MarkerSet::y, &MarkerSet::z, &MarkerSet::radius, &MarkerSet::gas})
+    string(column, column_);
+  string(&MarkerSet::escaped, flags_);
 }
 
 }  // namespace spume::fluid

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <random>
 
 #include "fluid/impact_speed.h"
 #include "fluid/marker_correction.h"
@@ -95,6 +96,35 @@ TEST(MarkerSorter, SortsByCellAndKeepsTheOrderInside) {
   EXPECT_EQ(sorter.cellStart()[2], 0);
   EXPECT_EQ(sorter.cellStart()[3], 2);
   EXPECT_EQ(sorter.cellStart().back(), 3);
+}
+
+TEST(MarkerSorter, InsertsAsSortingAllAgainWould) {
+  const GridSpec grid = unitCube(8);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> within(0, 8);
+  const auto draw = [&](MarkerSet& set) {
+    set.append(within(random), within(random), within(random), within(random));
+  };
+  MarkerSet markers, added;
+  for (int n = 0; n < 4000; ++n) draw(markers);
+  for (int n = 0; n < 700; ++n) draw(added);
+  MarkerSorter sorter(grid), another(grid);
+  another.sort(added);
+  sorter.sort(markers);
+  for (std::size_t n = 0; n < markers.size(); n += 3) markers.x[n] = NAN;
+  std::vector<MarkerSet> slabs(8);
+  MarkerSet all = markers;
+  for (std::size_t n = 0; n < added.size(); ++n)
+    for (MarkerSet* set : {&all, &slabs[static_cast<int>(added.x[n])]})
+      set->append(added.x[n], added.y[n], added.z[n], added.radius[n]);
+  sorter.insert(slabs, markers);
+  another.sort(all);
+  EXPECT_EQ(markers.x, all.x);
+  EXPECT_EQ(markers.y, all.y);
+  EXPECT_EQ(markers.z, all.z);
+  EXPECT_EQ(markers.radius, all.radius);
+  EXPECT_EQ(markers.gas, all.gas);
+  EXPECT_EQ(markers.escaped, all.escaped);
 }
 
 TEST(AdvectMarkers, TurnsWithARigidRotationToSecondOrder) {
