@@ -30,6 +30,13 @@ struct LiquidBodies {
   /// Keeps its arrays between calls. Cells without any free space (inside solids) are not counted.
   void find(const GridSpec& grid, const DenseField<float>& phi, const SolidBoundary& boundary);
 
+  /// Calls visit(body, i, j, begin, end) for all runs of cells k = begin ... end - 1 of the bodies, in the
+  /// order of the cells.
+  template <typename Visit>
+  void forEachRun(const Visit& visit) const {
+    connected_.forEachRun(label.size(), visit);
+  }
+
   /// Liquid volume of every cell in the last call of `find` [dx^3].
   const DenseField<float>& fraction() const { return fraction_; }
 

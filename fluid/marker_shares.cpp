@@ -22,7 +22,7 @@ void keepAtHome(float side, int count, const float* __restrict value, const std:
 void MarkerShares::findHomes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign,
                              const MarkerSet& markers) {
   const float side = static_cast<float>(static_cast<int>(sign));
-  home_.resize(markers.size());
+  resizeWithRoom(home_, markers.size());
   forEachRow(scene.grid.cells, [&](int i, int j) { std::fill_n(&count_(i, j, 0), scene.grid.cells.z(), 0); });
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     MarkerValues values;
@@ -30,9 +30,12 @@ void MarkerShares::findHomes(const MarkerScene& scene, const DenseField<float>& 
     sampleAtMarkers(phi, scene.solids.sides, markers, first, last, values);
     findMarkerCells(count_, markers, first, last, cells);
     keepAtHome(side, static_cast<int>(last - first), values.data(), cells.data(), home_.data() + first);
-    for (std::size_t n = first; n < last; ++n)
-      if (home_[n] >= 0)
-        std::atomic_ref<std::int32_t>(count_.data()[home_[n]]).fetch_add(1, std::memory_order_relaxed);
+    for (std::size_t n = first, end; n < last; n = end) {  // neighbours in memory share cells
+      for (end = n + 1; end < last && home_[end] == home_[n];) ++end;
+      if (home_[n] < 0) continue;
+      const std::atomic_ref<std::int32_t> count(count_.data()[home_[n]]);
+      count.fetch_add(static_cast<std::int32_t>(end - n), std::memory_order_relaxed);
+    }
   });
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fluid/liquid_measures.h"
-#include "fluid/marker_chunks.h"
+#include "fluid/marker_sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -21,14 +21,10 @@ using SpeckCells = std::vector<std::pair<std::int32_t, Eigen::Vector3i>>;  // bo
 /// The cells of all bodies that are small enough, by body.
 SpeckCells cellsOfSmallBodies(const LiquidBodies& bodies) {
   SpeckCells cells;
-  const Eigen::Vector3i& size = bodies.label.size();
-  for (int i = 0; i < size.x(); ++i)
-    for (int j = 0; j < size.y(); ++j) {
-      const std::int32_t* label = &bodies.label(i, j, 0);
-      for (int k = 0; k < size.z(); ++k)
-        if (label[k] >= 0 && bodies.bodies[label[k]].cells <= kLargestSpeck)
-          cells.emplace_back(label[k], Eigen::Vector3i(i, j, k));
-    }
+  bodies.forEachRun([&](std::int32_t body, int i, int j, int begin, int end) {
+    if (bodies.bodies[body].cells > kLargestSpeck) return;
+    for (int k = begin; k < end; ++k) cells.emplace_back(body, Eigen::Vector3i(i, j, k));
+  });
   std::stable_sort(cells.begin(), cells.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   return cells;
@@ -37,13 +33,16 @@ SpeckCells cellsOfSmallBodies(const LiquidBodies& bodies) {
 /// Clears the flag of every body that a marker lies in.
 void keepThoseWithMarkers(const LiquidBodies& bodies, const MarkerSet& negative,
                           std::vector<std::uint8_t>& isSpeck) {
-  const Eigen::Vector3i last = bodies.label.size() - Eigen::Vector3i::Ones();
-  const auto cellOf = [](float x, int high) { return std::clamp(static_cast<int>(std::floor(x)), 0, high); };
-  forEachMarkerChunk(negative.size(), [&](std::size_t first, std::size_t end) {
-    for (std::size_t m = first; m < end; ++m) {
-      const std::int32_t body = bodies.label(cellOf(negative.x[m], last.x()), cellOf(negative.y[m], last.y()),
-                                             cellOf(negative.z[m], last.z()));
-      if (body >= 0) std::atomic_ref(isSpeck[body]).store(0, std::memory_order_relaxed);
+  const std::int32_t* label = bodies.label.data();
+  forEachMarkerChunk(negative.size(), [&](std::size_t first, std::size_t last) {
+    MarkerCells cells;
+    findMarkerCells(bodies.label, negative, first, last, cells);
+    for (std::size_t m = 0; m < last - first; ++m) {
+      const std::int32_t body = label[cells[m]];
+      if (body < 0) continue;
+      const std::atomic_ref<std::uint8_t> speck(
+          isSpeck[body]);  // only ever cleared: any order gives the same
+      if (speck.load(std::memory_order_relaxed)) speck.store(0, std::memory_order_relaxed);
     }
   });
 }
