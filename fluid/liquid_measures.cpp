@@ -65,25 +65,24 @@ Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i&
   return mean;
 }
 
-MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance,
-                            double density, const Eigen::Vector3d& gravity) {
-  MacVelocity velocity = state.velocity;
+void presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance, double density,
+                     const Eigen::Vector3d& gravity, MacVelocity& velocity) {
   const double lead = std::min(state.lead, advance);
-  if (lead == 0) return velocity;
   for (int a = 0; a < 3; ++a) {
     const double fall = lead * gravity[a], toSpeed = lead / density;
     const auto back = state.phi.stride(a);
-    const Eigen::Vector3i& size = velocity[a].size();
+    const Eigen::Vector3i& size = state.velocity[a].size();
+    if (velocity[a].size() != size) velocity[a] = DenseField<float>(size);
     forEachRow(size, [&](int i, int j) {
       const float *phi = &state.phi(i, j, 0), *open = &boundary.open[a](i, j, 0);
-      const float* gradient = &state.pressureGradient[a](i, j, 0);
+      const float *gradient = &state.pressureGradient[a](i, j, 0), *led = &state.velocity[a](i, j, 0);
       float* u = &velocity[a](i, j, 0);
-      for (int k = 0; k < size.z(); ++k)
-        if ((phi[k] < 0 || phi[k - back] < 0) && open[k] > 0)
-          u[k] = static_cast<float>(u[k] - (fall - toSpeed * gradient[k]));
+      for (int k = 0; k < size.z(); ++k) {
+        const bool moves = (phi[k] < 0 || phi[k - back] < 0) && open[k] > 0;
+        u[k] = moves ? static_cast<float>(led[k] - (fall - toSpeed * gradient[k])) : led[k];
+      }
     });
   }
-  return velocity;
 }
 
 LiquidEnergy liquidEnergy(const GridSpec& grid, const DenseField<float>& fraction,

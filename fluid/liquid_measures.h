@@ -17,9 +17,9 @@ Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i&
 
 /// The velocity of a state at its own time: what it leads by, times the acceleration g - grad p/rho of the
 /// last projection, is taken back on the open faces of liquid cells; no further than the time `advance` [s]
-/// that acceleration acted, because that of an impact says nothing of the time before.
-MacVelocity presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance,
-                            double density, const Eigen::Vector3d& gravity);
+/// that acceleration acted, because that of an impact says nothing of the time before. Writes no ghosts.
+void presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance, double density,
+                     const Eigen::Vector3d& gravity, MacVelocity& velocity);
 
 struct LiquidEnergy {
   double kinetic = 0, potential = 0;  ///< [J]; potential is -rho g . x, so 0 at the world's origin

@@ -41,7 +41,7 @@ LiquidSolver::LiquidSolver(LiquidSolver&&) noexcept = default;
 
 LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std::vector<Push>& pushes) {
   LiquidStages& in = *internals_;
-  in.before = in.state;
+  copyState(in.state, in.before);
   in.escapedBefore = in.escaped.size();
   in.collapsedBefore = in.collapsed.size();
   in.pushed = pushes;
@@ -73,9 +73,7 @@ void LiquidSolver::rollBack() {
   in.resumeControl();
 }
 
-double LiquidSolver::stableDt(int maxSubSteps) const {
-  return maxSubSteps * internals_->longestStep();
-}
+double LiquidSolver::stableDt(int maxSubSteps) const { return maxSubSteps * internals_->longestStep(); }
 
 double LiquidSolver::liquidVolume() const {
   return fluid::liquidVolume(internals_->state.grid, internals_->state.phi, internals_->solids);

@@ -10,6 +10,7 @@
 #include "fluid/errors.h"
 #include "fluid/liquid_measures.h"
 #include "fluid/open_boundary.h"
+#include "fluid/parallel_copy.h"
 #include "fluid/pocket_markers.h"
 #include "fluid/specks.h"
 
@@ -130,7 +131,7 @@ void LiquidStages::moveSolids(double dt) {
 
 void LiquidStages::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
-  surfaceVelocity = state.velocity;
+  copyInParallel(state.velocity, surfaceVelocity);
   extrapolator.goOn(state.phi, solids, surfaceVelocity, surfaceStands);
   levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi, &solids);
   admitAir(state.grid, solids, surfaceVelocity, dt, state.phi);
@@ -318,10 +319,9 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
 }
 
 void LiquidStages::measure(LiquidStepReport& report) {
+  presentVelocity(state, solids, lastAdvance, params.density, params.gravity, velocityNow);
   const LiquidEnergy energy =
-      liquidEnergy(state.grid, bodies.fraction(),
-                   presentVelocity(state, solids, lastAdvance, params.density, params.gravity),
-                   params.density, params.gravity);
+      liquidEnergy(state.grid, bodies.fraction(), velocityNow, params.density, params.gravity);
   const LiquidEnergy flying = energyOf(state.drops, params.density, params.gravity);
   report.kineticEnergy = energy.kinetic + flying.kinetic;
   report.potentialEnergy = energy.potential + flying.potential;

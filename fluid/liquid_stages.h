@@ -61,6 +61,7 @@ struct LiquidStages {
   Pushes pushes;
   Projection projection;
   MacVelocity surfaceVelocity;  // carries the surface and its markers
+  MacVelocity velocityNow;      // without the state's lead; for measures
   DenseField<float> source, psiBefore;
   DenseField<std::int32_t> cellMark;
 

@@ -27,4 +27,8 @@ struct LiquidState {
   std::uint64_t dropsEver = 0;  ///< launched since the start; the next drop's id
 };
 
+/// to = from, in parallel and without giving back memory: done every step, so that a step that fails can be
+/// undone.
+void copyState(const LiquidState& from, LiquidState& to);
+
 }  // namespace spume::fluid
