@@ -30,9 +30,9 @@ constexpr std::size_t kFaceGrain = 256;
   }
 }
 
-[[gnu::noinline]] void clearUnreachedRow(const std::uint8_t* __restrict mark, int count,
-                                         float* __restrict value) {
-  for (int k = 0; k < count; ++k) value[k] = mark[k] == LayerList::kUnreached ? 0 : value[k];
+[[gnu::noinline]] void clearBeyondRow(const std::uint8_t* __restrict mark, std::uint8_t lastLayer, int count,
+                                      float* __restrict value) {
+  for (int k = 0; k < count; ++k) value[k] = mark[k] > lastLayer ? 0 : value[k];
 }
 
 [[gnu::noinline]] void constrainRow(const float* __restrict open, const std::uint8_t* __restrict given,
@@ -129,15 +129,18 @@ float VelocityExtrapolator::continuation(int axis, const Eigen::Vector3i& face, 
 }
 
 void VelocityExtrapolator::apply(const DenseField<float>& phi, const SolidBoundary& solids, int layers,
-                                 MacVelocity& velocity) {
+                                 MacVelocity& velocity, bool surfaceStands) {
   for (int axis = 0; axis < 3; ++axis) {
-    markKnown(axis, phi, solids);
-    layers_[axis].grow(layers, 1);
+    if (!surfaceStands || layers_[axis].layers() <= layers) {
+      markKnown(axis, phi, solids);
+      layers_[axis].grow(layers, 1);
+    }
     DenseField<float>& component = velocity[axis];
     const DenseField<std::uint8_t>& marks = layers_[axis].marks();
     for (int layer = 1; layer <= layers; ++layer) spread(axis, layer, phi, component);
     forEachRow(marks.size(), [&](int i, int j) {
-      clearUnreachedRow(&marks(i, j, 0), marks.size().z(), &component(i, j, 0));
+      clearBeyondRow(&marks(i, j, 0), static_cast<std::uint8_t>(layers), marks.size().z(),
+                     &component(i, j, 0));
     });
   }
   fillGhostLayers(velocity);

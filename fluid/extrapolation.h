@@ -19,13 +19,15 @@ class VelocityExtrapolator {
   /// solid, and those an inflow sets. From them values spread over `layers` layers of faces, then ghosts are
   /// filled; faces out of reach get 0. Closed faces are filled too, so that the tangential part reaches into
   /// walls: follow with constrainToSolids.
-  void apply(const DenseField<float>& phi, const SolidBoundary& solids, int layers, MacVelocity& velocity);
+  /// `surfaceStands`: phi and solids are those of the last call, whose layers, if as many, serve again.
+  void apply(const DenseField<float>& phi, const SolidBoundary& solids, int layers, MacVelocity& velocity,
+             bool surfaceStands = false);
 
   /// Lets a velocity that `apply` has continued go on without divergence in the first cell of air, as far as
   /// the flow inside agrees. A surface lies between faces: carried by a velocity that is constant beyond the
   /// known faces it lags by up to half a cell's change of it, which makes waves 0.6 % too slow at 64 cells a
   /// half length. Only for what carries the surface: velocities carried by it blow up where gaps close.
-  /// `surfaceStands`: phi and solids are those of the last call of `apply`, whose layers serve again.
+  /// `surfaceStands` as above.
   void goOn(const DenseField<float>& phi, const SolidBoundary& solids, MacVelocity& velocity,
             bool surfaceStands = false);
 

@@ -291,7 +291,8 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("pressure", [&] { leapAhead(dt); });
   const double advance = velocityAdvance(dt);
   if (params.velocityAdvection == VelocityAdvection::trapezoidal)
-    clock.time("extrapolation", [&] { acceleration.find(state, solids, params, extrapolator); });
+    clock.time("extrapolation",
+               [&] { acceleration.find(state, solids, params, extrapolator, surfaceStands); });
   clock.time("solids", [&] { moveSolids(dt); });
   clock.time("transport", [&] { transport(dt, report); });
   clock.time("correction", [&] { correctSurface(); });

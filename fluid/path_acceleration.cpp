@@ -48,7 +48,7 @@ void add(const MacVelocity& u, const MacField<float>& a, float time, MacVelocity
 }  // namespace
 
 void PathAcceleration::find(const LiquidState& state, const SolidBoundary& solids, const FluidParams& params,
-                            VelocityExtrapolator& extrapolator) {
+                            VelocityExtrapolator& extrapolator, bool surfaceStands) {
   for (int axis = 0; axis < 3; ++axis) {
     const DenseField<float>& gradient = state.pressureGradient[axis];
     forEachRow(gradient.size(), [&](int i, int j) {
@@ -57,7 +57,7 @@ void PathAcceleration::find(const LiquidState& state, const SolidBoundary& solid
     });
   }
   clearGiven(solids, acceleration_);
-  extrapolator.apply(state.phi, solids, kLayers, acceleration_);
+  extrapolator.apply(state.phi, solids, kLayers, acceleration_, surfaceStands);
   clearGiven(solids, acceleration_);
 }
 

@@ -19,9 +19,9 @@ class PathAcceleration {
   explicit PathAcceleration(const GridSpec& grid) : acceleration_(grid.cells), carried_(grid.cells) {}
 
   /// Takes a from the state as the last sub-step left it and continues it beyond the surface; 0 on the faces
-  /// of solids and inflows.
+  /// of solids and inflows. `surfaceStands`: nothing has moved since the velocity was continued there.
   void find(const LiquidState& state, const SolidBoundary& solids, const FluidParams& params,
-            VelocityExtrapolator& extrapolator);
+            VelocityExtrapolator& extrapolator, bool surfaceStands);
 
   /// Advances `velocity` by dt [s] by VelocityAdvector::advance.
   void advect(const DenseField<float>& phi, double dt, VelocityAdvector& advector, MacVelocity& velocity);

@@ -22,8 +22,7 @@ void ProjectionSystem::findPocketSurfaces() {
   vented.assign(count, 0);
   if (!held) return;
   std::vector<std::uint8_t> open(components.size(), 0);
-  forEachUnknown([&](const Component&, const Eigen::Vector3i& c) {
-    if (!(multigrid.finest().excess(c) > 0)) return;
+  forEachSurfaceCell([&](const Component&, const Eigen::Vector3i& c) {
     for (int a = 0; a < 3; ++a)
       for (int side : {-1, 1}) {
         if (!isSurface(c, a, side)) continue;

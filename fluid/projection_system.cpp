@@ -70,7 +70,9 @@ float ProjectionSystem::excessOf(const Eigen::Vector3i& c) const {
 void ProjectionSystem::assembleMatrix() {
   PressureMatrix& matrix = multigrid.finest();
   const auto si = component.stride(0), sj = component.stride(1);
+  surfaceCells.resize(grid.cells.x());
   forEachRow(grid.cells, [&](int i, int j) {
+    if (j == 0) surfaceCells[i].clear();
     const std::int32_t* wet = &component(i, j, 0);
     const FaceRows open(boundary->open, i, j);
     float *wx = &matrix.weight[0](i, j, 0), *wy = &matrix.weight[1](i, j, 0),
@@ -85,7 +87,9 @@ void ProjectionSystem::assembleMatrix() {
     for (int k = 0; k < grid.cells.z(); ++k) {
       const bool inside =
           (wet[k - si] | wet[k + si] | wet[k - sj] | wet[k + sj] | wet[k - 1] | wet[k + 1]) >= 0;
-      if (wet[k] >= 0 && !inside) excess[k] = excessOf({i, j, k});
+      if (wet[k] < 0 || inside) continue;
+      excess[k] = excessOf({i, j, k});
+      if (excess[k] > 0) surfaceCells[i].emplace_back(i, j, k);
     }
   });
   matrix.finish();
@@ -93,10 +97,8 @@ void ProjectionSystem::assembleMatrix() {
 }
 
 void ProjectionSystem::findLevels() {
-  const DenseField<float>& excess = multigrid.finest().excess;
   std::vector<double> inPockets(components.size(), 0);
-  forEachUnknown([&](Component& body, const Eigen::Vector3i& c) {
-    if (!(excess(c) > 0)) return;
+  forEachSurfaceCell([&](Component& body, const Eigen::Vector3i& c) {
     for (int a = 0; a < 3; ++a)
       for (int side : {-1, 1}) {
         if (!isSurface(c, a, side)) continue;
@@ -179,12 +181,33 @@ void ProjectionSystem::assembleRightHandSide(const MacVelocity& velocity, const 
                    [&](const ActiveRow& row) { assembleRow(row, velocity, source); });
 }
 
+/// Squares of both right-hand sides along the stretches of a row that belong to one component.
+void ProjectionSystem::sumSquares(const ActiveRow& row, std::vector<SquareSum>& sums) const {
+  for (int k = row.begin; k < row.end; ++k) {
+    const std::int32_t n = component(row.i, row.j, k);
+    if (n < 0) continue;
+    if (sums.empty() || sums.back().component != n) sums.push_back({n, 0, 0});
+    const double lifted = rhs(row.i, row.j, k), plain = plainRhs(row.i, row.j, k);
+    sums.back().lifted += lifted * lifted;
+    sums.back().plain += plain * plain;
+  }
+}
+
 /// Decides for each component which form has the smaller right-hand side.
 void ProjectionSystem::chooseGravity() {
-  forEachUnknown([&](Component& body, const Eigen::Vector3i& c) {
-    body.lifted += rhs(c) * rhs(c);
-    body.plain += plainRhs(c) * plainRhs(c);
+  const PressureMatrix& matrix = multigrid.finest();
+  squares.resize(grid.cells.x());
+  tbb::parallel_for(0, grid.cells.x(), [&](int i) {
+    squares[i].clear();
+    const int first = i * grid.cells.y();
+    for (int n = matrix.rowStart[first]; n < matrix.rowStart[first + grid.cells.y()]; ++n)
+      sumSquares(matrix.rows[n], squares[i]);
   });
+  for (const std::vector<SquareSum>& slab : squares)
+    for (const SquareSum& sum : slab) {
+      components[sum.component].lifted += sum.lifted;
+      components[sum.component].plain += sum.plain;
+    }
   bool allLifted = true;
   for (Component& body : components) {
     body.hydrostatic = body.surfaces == 0 || body.lifted <= body.plain;

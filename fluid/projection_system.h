@@ -25,6 +25,12 @@ struct Component {
   double mean() const { return sum / static_cast<double>(cells); }
 };
 
+/// Part of a component's squared right-hand sides.
+struct SquareSum {
+  std::int32_t component;
+  double lifted, plain;
+};
+
 /// Where the pressure is known next to a liquid cell.
 struct Surface {
   float coefficient;  // open / theta of its face
@@ -58,6 +64,8 @@ struct ProjectionSystem {
   ConnectedCells connected;
   DenseField<std::int32_t> component;
   std::vector<Component> components;
+  std::vector<std::vector<Eigen::Vector3i>> surfaceCells;  // unknowns beside the surface, of each slab
+  std::vector<std::vector<SquareSum>> squares;             // of each slab
   DenseField<double> rhs, plainRhs, solution;
   PocketUnknowns pockets;
   std::vector<double>
@@ -145,6 +153,13 @@ struct ProjectionSystem {
         if (n >= 0) body(components[n], Eigen::Vector3i(row.i, row.j, k));
       }
   }
+  /// The same for those beside the surface.
+  template <typename Body>
+  void forEachSurfaceCell(const Body& body) {
+    for (const std::vector<Eigen::Vector3i>& slab : surfaceCells)
+      for (const Eigen::Vector3i& c : slab) body(components[component(c)], c);
+  }
+  void sumSquares(const ActiveRow& row, std::vector<SquareSum>& sums) const;
   void assembleRightHandSide(const MacVelocity& velocity, const DenseField<float>& source);
   void chooseGravity();
   double centreAirless(DenseField<double>& field);
