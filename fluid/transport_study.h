@@ -45,9 +45,8 @@ struct TransportResult {
       0;                  ///< (end - start)/start; start is the exact volume of phi0 from 8^3 samples a cell
   double shapeError = 0;  ///< E1 = sum |f_end - f_exact| dV, per depth of the slab when planar
   double interfaceError = 0;  ///< E1 over the exact area (length) of the surface
-  double escaped =
-      0;  ///< volume that negative markers outside by more than their radius stand for, of the start
-  double worstBudget = 0;  ///< largest |grid + escaped - start|/start on the way, with `budget`
+  double escaped = 0;         ///< what markers hold beside the grid where phi is in doubt, of the start
+  double worstBudget = 0;     ///< largest |grid + escaped - start|/start on the way, with `budget`
   double seconds = 0;
   int steps = 0;
   LiquidState state;  ///< at the end
