@@ -174,8 +174,9 @@ void compare(const Study& study, TransportResult& result) {
         volume += end(i, j, k);
         volume0 += exact(i, j, k);
         difference += std::abs(end(i, j, k) - exact(i, j, k));
-        const Eigen::Vector3d x = grid.cellCentre(i, j, k);
-        area += std::abs(study.scene.phi0(x)) < grid.dx ? 0.5 : 0;  // a layer two cells thick holds it
+        const double distance = study.scene.phi0(grid.cellCentre(i, j, k));
+        area += std::abs(distance) < grid.dx ? 0.5 : 0;  // a layer two cells thick holds it
+        if (end(i, j, k) < 0.5) result.lostThickness = std::max(result.lostThickness, -2 * distance);
       }
   const double depth = study.scene.planar ? kSlabCells * grid.dx : 1;
   result.volumeChange = (volume - volume0) / volume0;
@@ -221,8 +222,9 @@ TransportResult runTransport(const TransportCase& scene, const TransportOptions&
     if (watch) watch(study.state, study.state.time);
     if (!options.budget) continue;
     result.escaped = study.volumeBesideGrid() / volume0;
-    result.worstBudget =
-        std::max(result.worstBudget, std::abs(study.gridVolume() / volume0 + result.escaped - 1));
+    const double shown = study.gridVolume() / volume0;
+    result.leastShown = std::min(result.leastShown, shown);
+    result.worstBudget = std::max(result.worstBudget, std::abs(shown + result.escaped - 1));
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   compare(study, result);
