@@ -104,8 +104,9 @@ Fate flyOne(const MarkerScene& scene, const DenseField<float>& phi, const FieldV
 
 }  // namespace
 
-double Drops::refreshVolumes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& negative) {
-  return shares_.refresh(scene, phi, MarkerSign::negative, negative);
+double Drops::refreshVolumes(const MarkerScene& scene, const DenseField<float>& phi,
+                             const MarkerSet& positive, MarkerSet& negative) {
+  return shares_.refreshLiquid(scene, phi, positive, negative);
 }
 
 std::vector<Drop> Drops::launch(const MarkerScene& scene, const DenseField<float>& phi,

@@ -25,9 +25,10 @@ class Drops {
  public:
   explicit Drops(const GridSpec& grid) : shares_(grid), sorter_(grid) {}
 
-  /// Sets the volume each negative marker inside the liquid stands for (column `gas`). Returns their sum
-  /// [m^3].
-  double refreshVolumes(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& negative);
+  /// Sets the volume each negative marker stands for (column `gas`) where the grid knows it: see
+  /// MarkerShares::refreshLiquid. Returns the sum of what it set [m^3].
+  double refreshVolumes(const MarkerScene& scene, const DenseField<float>& phi, const MarkerSet& positive,
+                        MarkerSet& negative);
 
   /// Takes the negative markers that are out of the liquid by more than their radius and kLaunchHeight cells
   /// out of the set. Returns them as drops without id, in the order of the set.

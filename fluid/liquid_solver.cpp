@@ -23,6 +23,7 @@ LiquidSolver::LiquidSolver(FluidParams params, LiquidSetup setup,
   in.reinitializer.apply(in.state.phi, &in.solids);
   in.extension.apply(in.state.phi);
   in.reseed();
+  in.drops.refreshVolumes(in.markerScene(), in.state.phi, in.state.positive, in.state.negative);
   in.bodies.find(in.state.grid, in.state.phi, in.solids);
   in.volumeControl.start(in.bodies);
   in.startPockets();

@@ -165,7 +165,8 @@ void LiquidStages::moveDrops(double dt, LiquidStepReport& report) {
   DropFlight flight = fly(scene, state.phi, dt, state.drops);
   landed = std::move(flight.landed);
   for (const Drop& drop : landed) volumeControl.deposit(drop.position, drop.volume);
-  if (state.subSteps % kSubStepsPerDropVolume == 0) drops.refreshVolumes(scene, state.phi, state.negative);
+  if (state.subSteps % kSubStepsPerDropVolume == 0)
+    drops.refreshVolumes(scene, state.phi, state.positive, state.negative);
   launch(drops.launch(scene, state.phi, state.velocity, state.negative), report);
   report.landed += volumeOf(landed);
   report.drained += flight.left;

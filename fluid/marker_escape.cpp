@@ -10,7 +10,7 @@
 namespace spume::fluid {
 
 double MarkerEscape::refreshGas(const MarkerScene& scene, const DenseField<float>& phi, MarkerSet& positive) {
-  return shares_.refresh(scene, phi, MarkerSign::positive, positive);
+  return shares_.refreshAir(scene, phi, positive);
 }
 
 void MarkerEscape::releaseEscaped(const MarkerScene& scene, const DenseField<float>& phi,

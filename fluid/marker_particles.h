@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fluid/dense_field.h"
+#include "fluid/doubtful_cells.h"
 #include "fluid/fluid_params.h"
 #include "fluid/grid_spec.h"
 #include "fluid/marker_set.h"
@@ -72,12 +73,12 @@ void adjustRadii(const MarkerScene& scene, const DenseField<float>& phi, MarkerS
 /// Brings the number of markers in every cell of the band to markersPerCell times the part of the cell on
 /// their side [Enright 2002, Section 3.3]: deletes what strayed from the band or is too many, adds what is
 /// missing at random positions keyed by (seed, cell, subStep). Escaped markers are neither counted nor
-/// touched, and no marker is added to a cell within one cell of one: there phi is in doubt, and markers drawn
-/// from it would defend its error (in the single vortex of 64 cells that costs four times the area that is
-/// lost without).
+/// touched, and no marker is added to a cell where phi is in doubt: drawn from it, it would defend its error
+/// (in the single vortex of 64 cells that costs four times the area that is lost without).
+/// Negative markers that go for being too many leave their volume to the others of their cell.
 class MarkerSeeder {
  public:
-  explicit MarkerSeeder(const GridSpec& grid) : sorter_(grid) {}
+  explicit MarkerSeeder(const GridSpec& grid) : sorter_(grid), doubt_(grid.cells) {}
 
   /// Sorts and reseeds both sets. Called on empty sets it seeds them.
   void reseed(const MarkerScene& scene, const DenseField<float>& phi, std::int64_t subStep,
@@ -85,12 +86,12 @@ class MarkerSeeder {
 
  private:
   struct Side;
-  void markDoubt(const Eigen::Vector3i& cells, const MarkerSet& markers);
+  static void handOver(float volume, std::int32_t begin, std::int32_t end, MarkerSet& markers);
   void removeSurplus(const Side& side, MarkerSet& markers);
   void addMissing(const Side& side, std::int64_t subStep, MarkerSet& markers);
 
   MarkerSorter sorter_;
-  std::vector<std::uint8_t> doubt_;    ///< per cell: 1 near an escaped marker of either sign
+  DoubtfulCells doubt_;
   std::vector<std::int32_t> missing_;  ///< per cell
   std::vector<MarkerSet> slabs_;       ///< new markers of each slab of cells
 };

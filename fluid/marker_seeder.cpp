@@ -66,6 +66,9 @@ struct MarkerSeeder::Side {
     const WallSides::Sample f = WallSides::sample(sides.read(phi, c), offset);
     return {f.value, f.gradient.x(), f.gradient.y(), f.gradient.z()};
   }
+  /// The volume of air markers is read anew from the grid in each sub-step, that of liquid may be theirs
+  /// alone.
+  bool holdsLiquid() const { return toCells < 0; }
   /// Markers cell (i, j, k) may keep: near the surface as many as a full cell, whatever part of it phi sees
   /// on their side, because where phi has lost a film the markers are what restores it.
   int allowed(int i, int j, int k) const {
@@ -112,6 +115,12 @@ bool MarkerSeeder::Side::attract(CounterRandom& random, const Eigen::Vector3i& c
   return false;
 }
 
+/// Adds a volume to every marker of a cell that stays and has not escaped.
+void MarkerSeeder::handOver(float volume, std::int32_t begin, std::int32_t end, MarkerSet& markers) {
+  for (std::int32_t n = begin; n < end; ++n)
+    if (!markers.escaped[n] && !std::isnan(markers.x[n])) markers.gas[n] += volume;
+}
+
 void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
   const Eigen::Vector3i cells = side.scene.grid.cells;
   const LargeVector<std::int32_t>& start = sorter_.cellStart();
@@ -121,19 +130,23 @@ void MarkerSeeder::removeSurplus(const Side& side, MarkerSet& markers) {
       const std::int32_t cell = (i * cells.y() + j) * cells.z() + k;
       int room = side.allowed(i, j, k);
       int present = 0;
+      float left = 0;  // volume of those that are too many
       const bool mayStray = side.mayStray(i, j, k);
       for (std::int32_t n = start[cell]; n < start[cell + 1]; ++n) {
         if (markers.escaped[n]) continue;
         const bool strayed =
             mayStray && side.depth({i, j, k}, markers.x[n], markers.y[n], markers.z[n]) > side.band;
         if (strayed || room == 0) {
+          if (!strayed) left += markers.gas[n];
           markers.x[n] = std::numeric_limits<float>::quiet_NaN();
         } else {
           --room;
           ++present;
         }
       }
-      missing_[cell] = doubt_[cell] ? 0 : std::max(0, side.wanted(i, j, k) - present);
+      if (side.holdsLiquid() && left > 0 && present > 0)
+        handOver(left / present, start[cell], start[cell + 1], markers);
+      missing_[cell] = doubt_(i, j, k) ? 0 : std::max(0, side.wanted(i, j, k) - present);
     }
   });
 }
@@ -168,24 +181,11 @@ void MarkerSeeder::addMissing(const Side& side, std::int64_t subStep, MarkerSet&
   sorter_.insert(slabs_, markers);
 }
 
-void MarkerSeeder::markDoubt(const Eigen::Vector3i& cells, const MarkerSet& markers) {
-  for (std::size_t n = 0; n < markers.size(); ++n) {
-    if (!markers.escaped[n] || std::isnan(markers.x[n])) continue;
-    const Eigen::Vector3i at(static_cast<int>(markers.x[n]), static_cast<int>(markers.y[n]),
-                             static_cast<int>(markers.z[n]));
-    const Eigen::Vector3i low = (at - Eigen::Vector3i::Ones()).cwiseMax(0);
-    const Eigen::Vector3i high = (at + Eigen::Vector3i::Ones()).cwiseMin(cells - Eigen::Vector3i::Ones());
-    for (int i = low.x(); i <= high.x(); ++i)
-      for (int j = low.y(); j <= high.y(); ++j)
-        for (int k = low.z(); k <= high.z(); ++k) doubt_[(i * cells.y() + j) * cells.z() + k] = 1;
-  }
-}
-
 void MarkerSeeder::reseed(const MarkerScene& scene, const DenseField<float>& phi, std::int64_t subStep,
                           MarkerSet& positive, MarkerSet& negative) {
-  doubt_.assign(scene.grid.cells.prod(), 0);
-  markDoubt(scene.grid.cells, positive);
-  markDoubt(scene.grid.cells, negative);
+  doubt_.clear();
+  doubt_.add(positive);
+  doubt_.add(negative);
   for (const MarkerSign sign : {MarkerSign::positive, MarkerSign::negative}) {
     MarkerSet& markers = sign == MarkerSign::positive ? positive : negative;
     const Side side(scene, phi, sign);

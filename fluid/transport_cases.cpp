@@ -28,21 +28,44 @@ Eigen::Vector3d rotation(const Eigen::Vector3d& x, const Eigen::Vector3d& centre
   return {rate * (centre.y() - x.y()), rate * (x.x() - centre.x()), 0};
 }
 
+/// A disk with its centre at `height`, cut by a slot from below up to `top`.
+struct SlottedDisk {
+  double box, height, radius, slotWidth, top;
+};
+
+/// The disk as it turns about the middle of its box.
+TransportCase turningDisk(const SlottedDisk& disk, double rate) {
+  const double halfSlot = 0.5 * disk.slotWidth, middle = 0.5 * disk.box;
+  TransportCase scene;
+  scene.size = {disk.box, disk.box, 0};
+  scene.planar = true;
+  scene.phi0 = [=](const Eigen::Vector3d& x) {
+    const double ax = x.x() - middle, ay = x.y() - disk.height;
+    const double ball = std::hypot(ax, ay) - disk.radius;
+    const double slot = slotDistance(ax, x.y(), halfSlot, disk.top);
+    const double rimDrop = std::sqrt(disk.radius * disk.radius - halfSlot * halfSlot);
+    return ay < 0 ? slottedDistance(ball, slot, halfSlot - std::abs(ax), ay + rimDrop)
+                  : std::max(ball, -slot);
+  };
+  scene.velocity = [=](const Eigen::Vector3d& x) { return rotation(x, {middle, middle, 0}, rate); };
+  return scene;
+}
+
 }  // namespace
 
 TransportCase zalesakDisk() {
-  constexpr double kRadius = 15, kHalfSlot = 2.5, kTop = 85;
-  const Eigen::Vector3d middle(50, 75, 0);
-  TransportCase scene{"zalesak disk", {100, 100, 0}, true, 628, {}, {}, {}};
-  scene.phi0 = [=](const Eigen::Vector3d& x) {
-    const double ax = x.x() - middle.x(), ay = x.y() - middle.y();
-    const double ball = std::hypot(ax, ay) - kRadius;
-    const double slot = slotDistance(ax, x.y(), kHalfSlot, kTop);
-    const double rimDrop = std::sqrt(kRadius * kRadius - kHalfSlot * kHalfSlot);
-    return ay < 0 ? slottedDistance(ball, slot, kHalfSlot - std::abs(ax), ay + rimDrop)
-                  : std::max(ball, -slot);
-  };
-  scene.velocity = [](const Eigen::Vector3d& x) { return rotation(x, {50, 50, 0}, kPi / 314); };
+  TransportCase scene =
+      turningDisk({.box = 100, .height = 75, .radius = 15, .slotWidth = 5, .top = 85}, kPi / 314);
+  scene.name = "zalesak disk";
+  scene.duration = 628;
+  return scene;
+}
+
+TransportCase rudmanDisk() {
+  TransportCase scene =
+      turningDisk({.box = 4, .height = 2.75, .radius = 0.5, .slotWidth = 0.12, .top = 2.85}, 1);
+  scene.name = "rudman disk";
+  scene.duration = 2 * kPi;
   return scene;
 }
 

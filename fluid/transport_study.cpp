@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "fluid/doubtful_cells.h"
 #include "fluid/level_set.h"
 #include "fluid/level_set_advection.h"
 #include "fluid/marker_correction.h"
@@ -11,7 +12,6 @@
 #include "fluid/marker_shares.h"
 #include "fluid/parallel.h"
 #include "fluid/reinitialize.h"
-#include "fluid/sampling.h"
 
 namespace spume::fluid {
 namespace {
@@ -96,6 +96,7 @@ struct Study {
     walls.closed[4] = walls.closed[5] = s.planar;
     initialiseLevelSet(grid, s.phi0, state.phi);
     if (options.markers) reseed();
+    if (options.budget) shares.refreshLiquid(markerScene(), state.phi, state.positive, state.negative);
   }
 
   MarkerScene markerScene() const { return {state.grid, options.params, walls, solids}; }
@@ -103,21 +104,30 @@ struct Study {
   void correct();
   void step(double t, double dt);
   double gridVolume() const;
-  double escapedVolume() const;
+  double volumeBesideGrid() const;
 };
 
 double Study::gridVolume() const { return liquidVolume(state.grid, state.phi, solids); }
 
-/// What the negative markers outside stand for, each with the volume it had when the grid last held it.
-double Study::escapedVolume() const {
+/// Where phi is in doubt the markers know how much liquid there is, elsewhere the grid does. This is what the
+/// negative markers of the cells in doubt stand for beyond what the grid shows there: what is outside the
+/// grid, counted once. Negative where the grid draws a thin film too thick.
+double Study::volumeBesideGrid() const {
+  DoubtfulCells doubt(state.grid.cells);
+  doubt.add(state.positive);
+  doubt.add(state.negative);
   const MarkerSet& markers = state.negative;
-  const FieldView phi(state.phi);
-  const float perDx = static_cast<float>(1 / state.grid.dx);
-  double sum = 0;
+  double held = 0, shown = 0;
   for (std::size_t n = 0; n < markers.size(); ++n)
-    if (perDx * sampleCentred(phi, markers.x[n], markers.y[n], markers.z[n]) > markers.radius[n])
-      sum += markers.gas[n];
-  return sum;
+    if (doubt(static_cast<int>(markers.x[n]), static_cast<int>(markers.y[n]), static_cast<int>(markers.z[n])))
+      held += markers.gas[n];
+  const Eigen::Vector3i& cells = state.grid.cells;
+  for (int i = 0; i < cells.x(); ++i)
+    for (int j = 0; j < cells.y(); ++j)
+      for (int k = 0; k < cells.z(); ++k)
+        if (doubt(i, j, k))
+          shown += liquidFractionOfCell(state.phi, static_cast<float>(state.grid.dx), i, j, k);
+  return held - shown * state.grid.cellVolume();
 }
 
 void Study::reseed() {
@@ -145,7 +155,7 @@ void Study::step(double t, double dt) {
   ++state.subSteps;
   state.time = t + dt;
   if (!options.markers) return;
-  if (options.budget) shares.refresh(markerScene(), state.phi, MarkerSign::negative, state.negative);
+  if (options.budget) shares.refreshLiquid(markerScene(), state.phi, state.positive, state.negative);
   adjustRadii(markerScene(), state.phi, MarkerSign::positive, state.positive);
   adjustRadii(markerScene(), state.phi, MarkerSign::negative, state.negative);
   if (state.subSteps % options.params.reseedInterval == 0) reseed();
@@ -164,8 +174,9 @@ void compare(const Study& study, TransportResult& result) {
         volume += end(i, j, k);
         volume0 += exact(i, j, k);
         difference += std::abs(end(i, j, k) - exact(i, j, k));
-        const Eigen::Vector3d x = grid.cellCentre(i, j, k);
-        area += std::abs(study.scene.phi0(x)) < grid.dx ? 0.5 : 0;  // a layer two cells thick holds it
+        const double distance = study.scene.phi0(grid.cellCentre(i, j, k));
+        area += std::abs(distance) < grid.dx ? 0.5 : 0;  // a layer two cells thick holds it
+        if (end(i, j, k) < 0.5) result.lostThickness = std::max(result.lostThickness, -2 * distance);
       }
   const double depth = study.scene.planar ? kSlabCells * grid.dx : 1;
   result.volumeChange = (volume - volume0) / volume0;
@@ -210,9 +221,10 @@ TransportResult runTransport(const TransportCase& scene, const TransportOptions&
     study.step(n * dt, dt);
     if (watch) watch(study.state, study.state.time);
     if (!options.budget) continue;
-    result.escaped = study.escapedVolume() / volume0;
-    result.worstBudget =
-        std::max(result.worstBudget, std::abs(study.gridVolume() / volume0 + result.escaped - 1));
+    result.escaped = study.volumeBesideGrid() / volume0;
+    const double shown = study.gridVolume() / volume0;
+    result.leastShown = std::min(result.leastShown, shown);
+    result.worstBudget = std::max(result.worstBudget, std::abs(shown + result.escaped - 1));
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   compare(study, result);

@@ -28,6 +28,8 @@ TransportCase zalesakDisk();
 TransportCase zalesakSphere();
 /// Disk in the reversed single vortex, T = 8 [Rider, Kothe 1998].
 TransportCase singleVortex();
+/// Slotted disk of Rudman (1998): radius 0.5 in a box of 4, slot 0.12 wide and 0.6 deep, one turn in 2 pi.
+TransportCase rudmanDisk();
 /// Sphere in the reversed deformation field, T = 3 [LeVeque 1996; Enright 2002].
 TransportCase enrightDeformation();
 
@@ -44,10 +46,11 @@ struct TransportResult {
   double volumeChange =
       0;                  ///< (end - start)/start; start is the exact volume of phi0 from 8^3 samples a cell
   double shapeError = 0;  ///< E1 = sum |f_end - f_exact| dV, per depth of the slab when planar
+  double lostThickness = 0;   ///< of the thickest part that is air at the end: twice its depth
   double interfaceError = 0;  ///< E1 over the exact area (length) of the surface
-  double escaped =
-      0;  ///< volume that negative markers outside by more than their radius stand for, of the start
-  double worstBudget = 0;  ///< largest |grid + escaped - start|/start on the way, with `budget`
+  double escaped = 0;         ///< what markers hold beside the grid where phi is in doubt, of the start
+  double leastShown = 1;      ///< smallest volume of the grid on the way, of the start, with `budget`
+  double worstBudget = 0;     ///< largest |grid + escaped - start|/start on the way, with `budget`
   double seconds = 0;
   int steps = 0;
   LiquidState state;  ///< at the end

@@ -5,7 +5,8 @@ namespace spume::apps {
 Reproduction liquidReproduction() {
   Reproduction table{"liquid", "The liquid beside published and exact figures", {}};
   for (const std::vector<Study>& studies :
-       {transportStudies(), restStudies(), waveStudies(), damBreakStudies(), tankStudies(), tensionStudies()})
+       {transportStudies(), escapeStudies(), exactFlowStudies(), waveStudies(), damBreakStudies(),
+        tankStudies(), tensionStudies()})
     table.studies.insert(table.studies.end(), studies.begin(), studies.end());
   return table;
 }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "apps/reproduce/selection.h"
 #include "coupling/errors.h"
 
@@ -43,6 +45,18 @@ TEST(Selection, RefusesUnknownWordsWithTheNearest) {
   EXPECT_NE(complaint({"liquid"}, {"L3"}).find("unknown case L3"), std::string::npos);
   EXPECT_NE(complaint({"liquid"}, {"soap"}).find("unknown case soap"),
             std::string::npos);  // of another table
+}
+
+/// Two files that offer their studies under one name of a function would both link to one of them.
+TEST(Reproductions, HaveEveryCaseInOneTableOnly) {
+  std::map<std::string, std::string> tableOf;
+  for (const Reproduction& table : reproductions())
+    for (const Study& study : table.studies) {
+      const auto [first, isNew] = tableOf.emplace(study.key, table.name);
+      EXPECT_TRUE(isNew) << study.key << " of " << table.name << " is also in " << first->second;
+    }
+  EXPECT_EQ(tableOf["F1"], "liquid");
+  EXPECT_EQ(tableOf["B7"], "foam");
 }
 
 }  // namespace

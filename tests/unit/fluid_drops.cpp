@@ -73,7 +73,7 @@ TEST(Drops, CarryTheVolumeOfTheLiquidThatTheGridLost) {
   MarkerSet positive, negative;
   MarkerSeeder(air.grid).reseed(air.scene(), air.phi, 0, positive, negative);
   Drops drops(air.grid);
-  const double share = drops.refreshVolumes(air.scene(), air.phi, negative);
+  const double share = drops.refreshVolumes(air.scene(), air.phi, positive, negative);
   EXPECT_NEAR(share / liquidVolume(air.grid, air.phi, air.solids), 1, 0.05);  // slivers hold no marker
   air.phi.fill(kLevelSetBand * static_cast<float>(air.grid.dx));              // the grid loses the ball
   const MacVelocity fall = macField(air.grid, [](const auto&) { return Eigen::Vector3d(0, -1, 0); });

@@ -180,7 +180,7 @@ std::vector<ResultRow> freeFall(const StudyContext&) {
 
 }  // namespace
 
-std::vector<Study> restStudies() {
+std::vector<Study> exactFlowStudies() {
   return {{"F1", "hydrostatic rest", 120, rest},
           {"F4", "Taylor-Green vortex, inviscid", 30, vortexOrder},
           {"F4b", "Taylor-Green vortex, viscous", 15, vortexDecay},
