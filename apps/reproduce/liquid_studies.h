@@ -13,6 +13,7 @@ std::vector<Study> exactFlowStudies();  ///< rest, free fall, vortices
 std::vector<Study> waveStudies();       ///< standing waves, with and without viscosity
 std::vector<Study> damBreakStudies();   ///< collapsing columns beside measurements
 std::vector<Study> tensionStudies();    ///< drops held together by surface tension
-std::vector<Study> tankStudies();       ///< a tank with an obstacle, a box being filled
+std::vector<Study> tankStudies();       ///< a tank with an obstacle
+std::vector<Study> fillingStudies();    ///< a box being filled, with and without bubbles
 
 }  // namespace spume::apps
