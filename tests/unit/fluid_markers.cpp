@@ -230,6 +230,20 @@ TEST(MarkerShares, OfLiquidAreKeptWherePhiIsInDoubt) {
   EXPECT_GT(divided, 0);
 }
 
+TEST(MarkerShares, OfLiquidAreTheSameOnAnyNumberOfThreads) {
+  const auto run = [](int threads) {
+    return onThreads(threads, [] {
+      Pool pool(24, sphere);
+      pool.seed();
+      for (std::size_t n = 0; n < pool.negative.size(); n += 100) pool.negative.escaped[n] = 1;
+      MarkerShares(pool.grid).refreshLiquid(pool.scene(), pool.phi, pool.positive, pool.negative);
+      return pool.negative;
+    });
+  };
+  const MarkerSet one = run(1), four = run(4);
+  EXPECT_EQ(one.gas, four.gas);
+}
+
 /// A marker that stands out by less than its radius has not escaped: its part of the cell must not be given
 /// to the others, or it counts twice once it has.
 TEST(MarkerShares, OfLiquidGoToAllThatHaveNotEscaped) {
