@@ -3,8 +3,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/reproduce/liquid_bench.h"
 #include "apps/reproduce/liquid_studies.h"
@@ -73,29 +74,49 @@ fluid::LiquidSolver tank(int across, std::uint64_t seed = 1) {
   return {waterOfTank(seed), {grid, openTop(), {box}, {}}, columnDistance};
 }
 
+/// Mean of a figure of some runs, and its range as a text.
+template <typename Run, typename Figure>
+std::pair<double, std::string> meanAndRange(const std::vector<Run>& runs, const Figure& figure) {
+  double low = figure(runs[0]), high = low, sum = 0;
+  for (const Run& run : runs) {
+    const double value = figure(run);
+    low = std::min(low, value), high = std::max(high, value), sum += value;
+  }
+  char text[64];
+  std::snprintf(text, sizeof text, "single runs %.2g to %.2g %%", low, high);
+  return {sum / static_cast<double>(runs.size()), text};
+}
+
+std::string meanOf(const std::string& resolution, std::size_t runs) {
+  return resolution + ", mean of " + std::to_string(runs) + " runs";
+}
+
 /// Rows of the impact: [SPHERIC test 2] P1 to P4. The gauges are 4 cm apart: the grid of the heights has 3 cm
-/// cells and only tells; the finer one, `asked`, is compared with the aims.
-void addImpact(const ImpactRecord& impact, const fluid::GridSpec& grid, bool asked,
+/// cells and only tells; the finer one, `asked`, is compared with the aims. A peak lasts a step or two: runs
+/// that differ in their markers alone differ in it.
+void addImpact(const std::vector<ImpactRecord>& runs, const std::string& resolution, bool asked,
                std::vector<ResultRow>& rows) {
   constexpr std::array<double, ImpactRecord::kGauges> kPeak{11.2e3, 8.13e3, 6.56e3, 7.2e3};
   constexpr std::array<const char*, ImpactRecord::kGauges> kText{"11.2 kPa", "8.13 kPa; interFoam -15.5 %",
                                                                  "6.56 kPa", "7.2 kPa"};
   constexpr double kRise = .393;
   ResultRow r;
-  r.resolution = tankResolution(grid);
+  r.resolution = meanOf(resolution, runs.size());
   r.source = kTankSource;
   r.quantity = "error of the time P1 rises";
   r.reference = ".393 s; interFoam +2.4 %";
   r.note = "when the front is there: see the plane flow";
-  const double late = 100 * (impact.rise / kRise - 1);
-  rows.push_back(asked ? aimAtMost(r, late, 3, "%") : reportOnly(r, late, "%"));
-  r.note.clear();
+  const auto late = [](const ImpactRecord& run) { return 100 * (run.rise / kRise - 1); };
+  const double mean = meanAndRange(runs, late).first;
+  rows.push_back(asked ? aimAtMost(r, mean, 3, "%") : reportOnly(r, mean, "%"));
   for (int n = 0; n < ImpactRecord::kGauges; ++n) {
     r.aim.clear();
     r.verdict = Verdict::none;
     r.quantity = "error of the peak of P" + std::to_string(n + 1);
     r.reference = kText[n];
-    const double error = 100 * (impact.peak[n] / kPeak[n] - 1);
+    const auto excess = [&](const ImpactRecord& run) { return 100 * (run.peak[n] / kPeak[n] - 1); };
+    const auto [error, range] = meanAndRange(runs, excess);
+    r.note = range;
     rows.push_back(n == 1 && asked ? aimAtMost(r, error, 20, "%") : reportOnly(r, error, "%"));
   }
 }
@@ -110,10 +131,12 @@ ImpactRecord impactOn(fluid::LiquidSolver& solver) {
 }
 
 constexpr std::size_t kGauges = 4, kTimes = 3;
+/// Readings of H1 and H3 are each other's in our list of the data: with .001 m at .5 s the third gauge would
+/// be dry a quarter of a second after the front passed it.
 using Readings = std::array<std::array<double, kTimes>, kGauges>;  ///< of H1 to H4 [m]
 constexpr std::array<double, kTimes> kReadAt{.5, 1.007, 1.80};     ///< [s]
 constexpr Readings kMeasured{
-    {{.095, .154, .122}, {.099, .180, .333}, {.001, .161, .298}, {.426, .277, .147}}};
+    {{.001, .161, .298}, {.099, .180, .333}, {.095, .154, .122}, {.426, .277, .147}}};
 constexpr std::array<double, kGauges> kLargest{.341, .341, .341, .55};  ///< H1 and H3 in the unit of H2 [m]
 
 /// What the height gauges read at the times of the measurements, and the crest at H2.
@@ -139,22 +162,12 @@ double errorOf(const Readings& height, std::size_t g) {
   return 100 * sum / kTimes / kLargest[g];
 }
 
-/// Lowest and highest of a figure of the runs.
-std::string rangeOf(const std::vector<HeightRecord>& runs,
-                    const std::function<double(const HeightRecord&)>& f) {
-  double low = f(runs[0]), high = low;
-  for (const HeightRecord& run : runs) low = std::min(low, f(run)), high = std::max(high, f(run));
-  char text[64];
-  std::snprintf(text, sizeof text, "single runs %.2g to %.2g %%", low, high);
-  return text;
-}
-
 /// The wave that comes back breaks, and runs that differ by round-off alone differ in it by several percent:
 /// what can be compared with the one measurement is the mean of some runs.
 std::vector<ResultRow> heightRows(const std::vector<HeightRecord>& runs, const std::string& resolution) {
   constexpr double kPeak = .341, kPeakTime = 1.787, kLimit = 4;
   constexpr std::array<const char*, kGauges> kReference{
-      ".095, .154, .122 m", ".099, .180, .333 m; interFoam 3.0 %", ".001, .161, .298 m",
+      ".001, .161, .298 m", ".099, .180, .333 m; interFoam 3.0 %", ".095, .154, .122 m",
       ".426, .277, .147 m; interFoam 1.8 %"};
   HeightRecord mean;
   for (const HeightRecord& run : runs) {
@@ -165,24 +178,26 @@ std::vector<ResultRow> heightRows(const std::vector<HeightRecord>& runs, const s
   }
   std::vector<ResultRow> rows;
   ResultRow r;
-  r.resolution = resolution + ", mean of " + std::to_string(runs.size()) + " runs";
+  r.resolution = meanOf(resolution, runs.size());
   r.source = kTankSource;
   for (std::size_t g = 0; g < kGauges; ++g) {
     r.quantity = "mean error of H" + std::to_string(g + 1) + " at 3 times, of " +
                  (g % 2 ? "its maximum" : "H2's maximum");
     r.reference = kReference[g];
-    r.note = rangeOf(runs, [g](const HeightRecord& run) { return errorOf(run.height, g); });
+    r.note = meanAndRange(runs, [g](const HeightRecord& run) { return errorOf(run.height, g); }).second;
     const double error = errorOf(mean.height, g);
     rows.push_back(g % 2 ? aimAtMost(r, error, kLimit, "%") : reportOnly(r, error, "%"));
     r.aim.clear(), r.verdict = Verdict::none;
   }
   r.quantity = "error of the peak of H2";
   r.reference = ".341 m";
-  r.note = rangeOf(runs, [=](const HeightRecord& run) { return 100 * (run.peak / kPeak - 1); });
+  const auto crest = [](const HeightRecord& run) { return 100 * (run.peak / kPeak - 1); };
+  r.note = meanAndRange(runs, crest).second;
   rows.push_back(reportOnly(r, 100 * (mean.peak / kPeak - 1), "%"));
   r.quantity = "error of its time";
   r.reference = "1.787 s";
-  r.note = rangeOf(runs, [=](const HeightRecord& run) { return 100 * (run.peakTime / kPeakTime - 1); });
+  const auto arrival = [](const HeightRecord& run) { return 100 * (run.peakTime / kPeakTime - 1); };
+  r.note = meanAndRange(runs, arrival).second;
   rows.push_back(aimAtMost(r, 100 * (mean.peakTime / kPeakTime - 1), 3, "%"));
   return rows;
 }
@@ -230,32 +245,36 @@ ResultRow frontRow() {
 /// F10: a column 0.55 m high meets a box on the floor of a tank [SPHERIC test 2]; the heights from runs with
 /// different markers, the impact at two resolutions.
 std::vector<ResultRow> boxInTank(const StudyContext&) {
-  constexpr int kAcross = 32, kRuns = 4;
+  constexpr int kAcross = 32, kRuns = 4, kFineRuns = 3;
   constexpr double kStep = 0.01, kEnd = 2;
   std::vector<HeightRecord> heights(kRuns);
-  ImpactRecord impact;
-  fluid::GridSpec grid;
+  std::vector<ImpactRecord> coarse(kRuns), fine;
+  std::string resolution;
   for (int n = 0; n < kRuns; ++n) {
     fluid::LiquidSolver solver = tank(kAcross, n + 1);
-    grid = solver.state().grid;
+    resolution = tankResolution(solver.state().grid);
     while (solver.state().time < kEnd) {
       const bool meets = solver.state().time < kImpactEnd;
       const double step = meets ? kImpactStep : kStep;
       solver.step(step);
-      if (meets && n == 0) impact.note(solver);
+      if (meets) coarse[n].note(solver);
       heights[n].note(solver.state(), step);
     }
   }
-  std::vector<ResultRow> rows = heightRows(heights, tankResolution(grid));
-  addImpact(impact, grid, false, rows);
-  fluid::LiquidSolver fine = tank(2 * kAcross);
-  addImpact(impactOn(fine), fine.state().grid, true, rows);
+  std::vector<ResultRow> rows = heightRows(heights, resolution);
+  addImpact(coarse, resolution, false, rows);
+  for (int n = 0; n < kFineRuns; ++n) {
+    fluid::LiquidSolver solver = tank(2 * kAcross, n + 1);
+    resolution = tankResolution(solver.state().grid);
+    fine.push_back(impactOn(solver));
+  }
+  addImpact(fine, resolution, true, rows);
   rows.push_back(frontRow());
   return rows;
 }
 
 }  // namespace
 
-std::vector<Study> tankStudies() { return {{"F10", "column against a box", 500, boxInTank}}; }
+std::vector<Study> tankStudies() { return {{"F10", "column against a box", 900, boxInTank}}; }
 
 }  // namespace spume::apps
