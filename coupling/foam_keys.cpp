@@ -66,7 +66,9 @@ void addForceKeys(KeyTableBuilder<foam::FoamParams>& table) {
       .key("weak_pairs", &FoamParams::weakPairs, "floating bubbles attract each other; else only solids do")
       .key("attraction", &FoamParams::attraction, {0, 1, "N"}, "alpha of Eq. 6")
       .key("wall_stiffness_factor", &FoamParams::wallStiffnessFactor, {0, 1000, "-"}, "wall spring over k")
-      .key("contact_damping", &FoamParams::contactDamping, {0, 5, "-"}, "zeta of Eq. 10, made pairwise");
+      .key("contact_damping", &FoamParams::contactDamping, {0, 5, "-"}, "zeta of Eq. 10, made pairwise")
+      .key("border_rate", &FoamParams::borderRate, {0, 100, "1/s"},
+           "how fast films aloft draw their borders to Plateau's law; 0: not at all");
 }
 
 /// Volume, lives and the solver.

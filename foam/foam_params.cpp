@@ -33,6 +33,7 @@ void requireStructure(const FoamParams& p) {
   requireRange("springSurfaceTensionFactor", p.springSurfaceTensionFactor, 0.5, 1, "");
   requireRange("springFloor", p.springFloor, 0, 1000, "");
   requireRange("contactDamping", p.contactDamping, 0, 5, "");
+  requireRange("borderRate", p.borderRate, 0, 100, "1/s");
   requireRange("volumeRate", p.volumeRate, 0, 1000, "1/s");
   requireRange("volumeTolerance", p.volumeTolerance, 1e-10, 0.1, "");
   requireRange("radiusLimit", p.radiusLimit, 1.1, 10, "");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "foam/attraction.h"
+#include "foam/border_drift.h"
 #include "foam/classification.h"
 #include "foam/errors.h"
 #include "foam/integrator.h"
@@ -89,6 +90,7 @@ struct FoamSolver::Internals {
   Surroundings around;
   std::vector<double> widest;  ///< largest radius of each bubble in this step [m]
   std::vector<NearWalls> walls;
+  BorderDrift drift;
   Attraction attraction;
   Vectors3 pull;
   Eigen::VectorXd phiEnd, psiEnd;
@@ -253,6 +255,8 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   s.findWalls(liquid);
   s.measure();
   clock.end("geometry");
+  s.drift.find(s.params, s.around, s.topology, s.neighbours, s.walls, s.next, dt);
+  clock.end("borders");
   correctVolumes(s.params, s.topology, dt, s.next);
   clock.end("volume");
   weighSurface(s.around, s.topology, s.neighbours, s.next);
@@ -266,6 +270,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, s.walls, dt);
   clock.end("solve");
   s.integrator.advance(dt, s.next);
+  s.drift.advance(s.next);
   requireFinite(s.next);
   report.pushedOut = keepOutOfSolids(liquid, s.next);
   report.kineticEnergy = s.integrator.kineticEnergy();

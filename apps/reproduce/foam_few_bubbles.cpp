@@ -149,8 +149,9 @@ std::vector<ResultRow> corners(const StudyContext&) {
   };
   ResultRow pyramid = row("square pyramid, 5 bubbles"), octahedron = row("octahedron, 6 bubbles");
   octahedron.note =
-      "stays whole, also when started 0.3 r off; a stretched contact pulls with the share of its film, and "
-      "here it has none";
+      "stays whole, also when started 0.3 r off: a stretched contact pulls with the share of its film, and "
+      "here it has none; nor does border_rate open it, as its films meet at 120 degrees and plane ones have "
+      "least area so";
   return {aimAtLeast(pyramid, openedFilm(5), kOpen, "r^2"),
           aimAtLeast(octahedron, openedFilm(6), kOpen, "r^2")};
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "apps/reproduce/plateau_angles.h"
+#include "apps/reproduce/round_films.h"
 #include "apps/reproduce/scene_figures.h"
 #include "apps/reproduce/scene_studies.h"
 #include "apps/reproduce/svg_plot.h"
@@ -70,6 +71,11 @@ void addAngles(const SceneRun& run, std::vector<ResultRow>& rows) {
   borders.reference = "random power diagram 36 deg";
   borders.note = std::to_string(angles.borders.size() / 6) + " points";
   rows.push_back(aimAtMost(borders, angles.borderSpread(), kWellUnderHalf * kRandomBorders, "deg"));
+  const auto sampler = run.liquid->sampler();
+  ResultRow round =
+      rowOf(run, "films' angles about 120 deg, films as round as their cells' pressures demand");
+  round.note = "Plateau's law is about the films' tangents; the model's films are plane";
+  rows.push_back(reportOnly(round, RoundFilms(run.bubbles(), *sampler).angles(angles).filmSpread(), "deg"));
   const PlateauAngles rest = anglesAtRest(run.bubbles().radius, angles);
   ResultRow restFilms = rowOf(run, "films' angles of the same bubbles, every pair at Plateau's distance");
   restFilms.note = "plane films of unequal bubbles spread so much at rest";

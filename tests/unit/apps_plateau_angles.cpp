@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "apps/reproduce/plateau_angles.h"
+#include "apps/reproduce/round_films.h"
 #include "foam/counter_random.h"
 #include "foam/power_cells.h"
+#include "foam/still_pool.h"
 
 namespace spume::apps {
 namespace {
@@ -116,6 +118,31 @@ TEST(PlateauAngles, EveryWholeCellHasTheEdgesOfEulersLaw) {
     EXPECT_EQ(edges[i], 6 * faces[i] - 12) << i;
   }
   EXPECT_GT(whole, 50);
+}
+
+TEST(RoundFilms, OfAnUnequalPairLeanLikeTheirSphere) {
+  // A dry pair at Plateau's distance: 1/R = 1/r_1 - 1/r_0, and the film meets its rim at asin(rho / R).
+  constexpr double kLarge = 1, kSmall = 0.9;
+  constexpr double kPlane =
+      0.1;  // of the lean: held volumes balance a plane film's pressures, not a round one's
+  const double apart = std::sqrt(kLarge * kLarge + kSmall * kSmall - kLarge * kSmall);
+  foam::BubbleStore pair;
+  pair.add({.position = {0, 0, 0}, .radius = kLarge, .type = foam::BubbleClass::air, .wetness = 0});
+  pair.add({.position = {apart, 0, 0}, .radius = kSmall, .type = foam::BubbleClass::air, .wetness = 0});
+  foam::StillPoolParams dry;
+  dry.surfaceHeight = -1e3;
+  const RoundFilms films(pair, foam::StillPool(dry));
+  const double height = (apart * apart + kLarge * kLarge - kSmall * kSmall) / (2 * apart);
+  const double rim = std::sqrt(kLarge * kLarge - height * height);
+  const double lean = std::asin(rim * (1 / kSmall - 1 / kLarge)) * 180 / M_PI;
+  EXPECT_NEAR(films.lean(1, 0), lean, kPlane * lean);
+  EXPECT_EQ(films.lean(0, 1), -films.lean(1, 0));
+  PlateauAngles border;
+  border.bordersCells = {{0, 1, 2}}, border.films = {120, 120, 120};
+  const std::vector<double> angles = films.angles(border).films;
+  EXPECT_DOUBLE_EQ(angles[0], 120 + films.lean(0, 1));
+  EXPECT_DOUBLE_EQ(angles[1], 120 + films.lean(1, 0));
+  EXPECT_DOUBLE_EQ(angles[2], 120);
 }
 
 }  // namespace
