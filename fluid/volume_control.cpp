@@ -14,8 +14,8 @@ namespace spume::fluid {
 namespace {
 
 // Relative volume error below which a body is left alone: what float phi cannot resolve would otherwise keep
-// a still pool moving. At 4e-9 and the default relaxation time a pool 4 cm deep would move at 8e-9 m/s.
-constexpr double kVolumeDeadband = 4e-9;
+// a still pool moving. At 2e-9 and the default relaxation time a pool 4 cm deep would move at 8e-9 m/s.
+constexpr double kVolumeDeadband = 2e-9;
 // Largest error acted on, relative to the body's room: a drop of a few cells whose measured volume is mostly
 // noise grows or shrinks by no more than e^(1/2) per relaxation time.
 constexpr double kLargestError = 0.5;
