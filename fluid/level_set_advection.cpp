@@ -117,8 +117,8 @@ void LevelSetAdvection::semiLagrangian(const MacVelocity& velocity, double dt, D
   const float nearby = kAccurateReach * static_cast<float>(grid_.dx);
   findMoving(phi, velocity, dt);
   forEachRow(grid_.cells, [&](int i, int j) {
-    std::copy_n(&phi(i, j, 0), grid_.cells.z(), &next_(i, j, 0));
     const RowSpans::Span span = moving_.cells(i, j);
+    RowSpans::copyOutside(span, &phi(i, j, 0), grid_.cells.z(), &next_(i, j, 0));
     for (int k = span.begin; k < span.end; k += kPathChunk) {
       PathPoints centre, startWind, from;
       cellStarts(velocity, i, j, k, centre, startWind);

@@ -33,6 +33,13 @@ class RowSpans {
     });
   }
 
+  /// Copies what a span leaves out of a row of `length` values.
+  static void copyOutside(Span span, const float* from, int length, float* to) {
+    if (span.begin >= span.end) span = {length, length};
+    std::copy(from, from + span.begin, to);
+    std::copy(from + span.end, from + length, to + span.end);
+  }
+
   /// Widens the set by `reach` cells along every axis, corners included.
   void grow(int reach);
 

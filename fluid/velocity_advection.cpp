@@ -22,15 +22,15 @@ std::array<float, 3> faceShift(int axis) {
   return {axis == 0 ? 0.0f : 0.5f, axis == 1 ? 0.0f : 0.5f, axis == 2 ? 0.0f : 0.5f};
 }
 
-/// Calls body(i, j, k, count) for runs of at most kPathChunk of the faces across `axis` that `spans` holds,
-/// after copying the whole row from one field to another.
+/// Calls body(i, j, k, count) for runs of at most kPathChunk of the faces across `axis` that `spans` holds, and
+/// copies the others from one field to another.
 template <typename Body>
 void forEachRun(int axis, const RowSpans& spans, const DenseField<float>& from, DenseField<float>& to,
                 const Body& body) {
   const int length = from.size().z();
   forEachRow(from.size(), [&](int i, int j) {
-    std::copy_n(&from(i, j, 0), length, &to(i, j, 0));
     const RowSpans::Span span = spans.faces(axis, i, j);
+    RowSpans::copyOutside(span, &from(i, j, 0), length, &to(i, j, 0));
     for (int k = span.begin; k < span.end; k += kPathChunk) body(i, j, k, std::min(kPathChunk, span.end - k));
   });
 }
