@@ -40,8 +40,8 @@ void keepThoseWithMarkers(const LiquidBodies& bodies, const MarkerSet& negative,
     for (std::size_t m = 0; m < last - first; ++m) {
       const std::int32_t body = label[cells[m]];
       if (body < 0) continue;
-      const std::atomic_ref<std::uint8_t> speck(
-          isSpeck[body]);  // only ever cleared: any order gives the same
+      // Only ever cleared: any order gives the same.
+      const std::atomic_ref<std::uint8_t> speck(isSpeck[body]);
       if (speck.load(std::memory_order_relaxed)) speck.store(0, std::memory_order_relaxed);
     }
   });

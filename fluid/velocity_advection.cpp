@@ -22,8 +22,8 @@ std::array<float, 3> faceShift(int axis) {
   return {axis == 0 ? 0.0f : 0.5f, axis == 1 ? 0.0f : 0.5f, axis == 2 ? 0.0f : 0.5f};
 }
 
-/// Calls body(i, j, k, count) for runs of at most kPathChunk of the faces across `axis` that `spans` holds, and
-/// copies the others from one field to another.
+/// Calls body(i, j, k, count) for runs of at most kPathChunk of the faces across `axis` that `spans` holds,
+/// and copies the others from one field to another.
 template <typename Body>
 void forEachRun(int axis, const RowSpans& spans, const DenseField<float>& from, DenseField<float>& to,
                 const Body& body) {
