@@ -68,7 +68,8 @@ void addForceKeys(KeyTableBuilder<foam::FoamParams>& table) {
       .key("wall_stiffness_factor", &FoamParams::wallStiffnessFactor, {0, 1000, "-"}, "wall spring over k")
       .key("contact_damping", &FoamParams::contactDamping, {0, 5, "-"}, "zeta of Eq. 10, made pairwise")
       .key("border_rate", &FoamParams::borderRate, {0, 100, "1/s"},
-           "how fast films aloft draw their borders to Plateau's law; 0: not at all");
+           "how fast films aloft draw their borders to Plateau's law, at most a tenth of the way in a step; "
+           "0: not at all");
 }
 
 /// Volume, lives and the solver.

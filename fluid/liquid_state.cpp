@@ -17,15 +17,16 @@ void copyMarkers(const MarkerSet& from, MarkerSet& to) {
 }  // namespace
 
 void copyState(const LiquidState& from, LiquidState& to) {
-  to.grid = from.grid;
-  to.time = from.time, to.subSteps = from.subSteps, to.lead = from.lead;
-  copyInParallel(from.phi, to.phi);
-  copyInParallel(from.velocity, to.velocity);
-  copyInParallel(from.pressureGradient, to.pressureGradient);
-  copyMarkers(from.positive, to.positive);
-  copyMarkers(from.negative, to.negative);
-  to.volume = from.volume;
-  to.drops = from.drops, to.dropsEver = from.dropsEver;
+  // Named one by one, so that a new member does not compile until it is copied, too.
+  const auto& [grid, time, subSteps, phi, velocity, lead, pressureGradient, positive, negative, volume, drops,
+               dropsEver] = from;
+  to.grid = grid, to.time = time, to.subSteps = subSteps, to.lead = lead;
+  copyInParallel(phi, to.phi);
+  copyInParallel(velocity, to.velocity);
+  copyInParallel(pressureGradient, to.pressureGradient);
+  copyMarkers(positive, to.positive);
+  copyMarkers(negative, to.negative);
+  to.volume = volume, to.drops = drops, to.dropsEver = dropsEver;
 }
 
 }  // namespace spume::fluid

@@ -21,8 +21,7 @@ static_assert(kTileSlabs >= 4 * std::max(kFineSweeps, kCoarseSweeps),
               "a tile is too narrow for its half sweeps");
 // Cells of a row handled at once: what is made of them on the way stays in the first-level cache.
 constexpr int kPiece = 128;
-// A level of as many slabs is one tile, unless it has more rows than one thread should do alone.
-constexpr int kFewSlabs = 2 * kTileSlabs;
+// More rows than these are not left to one thread, even if they are a single tile.
 constexpr std::size_t kFewRows = 256;
 constexpr int kRed = 0, kBlack = 1;  // parities of i + j + k
 
@@ -198,14 +197,14 @@ void Multigrid::sweep(Level& level, int halves, HalfSweep first, HalfSweep secon
     const HalfSweep again = first == HalfSweep::start ? HalfSweep::red : first;
     return n == 0 ? first : n % 2 == 0 ? again : second;
   };
-  const int slabs = m.cells().x();
-  if (slabs <= kFewSlabs && m.rows.size() > kFewRows) {
+  const int rows = m.cells().y();
+  const SlabTiles tiles(m.cells().x(), rows, halves);
+  if (tiles.single() && m.rows.size() > kFewRows) {
     for (int n = 0; n < halves; ++n)
       forEachActiveRow(m.rows, [&](const ActiveRow& row) { relax(level, halfAt(n), row); });
     return;
   }
-  const int rows = m.cells().y();
-  SlabTiles(slabs, rows, halves).sweep([&](int n, int slab, int begin, int end) {
+  tiles.sweep([&](int n, int slab, int begin, int end) {
     const HalfSweep half = halfAt(n);
     for (int row = m.rowStart[slab * rows + begin]; row < m.rowStart[slab * rows + end]; ++row)
       relax(level, half, m.rows[row]);

@@ -24,11 +24,14 @@ class SlabTiles {
         passes_(passes),
         tiles_(slabs <= 2 * kTileSlabs ? 1 : slabs / kTileSlabs) {}
 
+  /// True if there are too few slabs for more than one tile.
+  bool single() const { return tiles_ == 1; }
+
   /// Calls pass(n, slab, begin, end) for rows j = begin ... end - 1 of slabs. Few slabs stay on the calling
   /// thread.
   template <typename Pass>
   void sweep(const Pass& pass) const {
-    if (tiles_ == 1) return inside(0, pass);
+    if (single()) return inside(0, pass);
     tbb::parallel_for(0, tiles_, [&](int tile) { inside(tile, pass); });
     tbb::parallel_for(1, tiles_, [&](int tile) { between(beginOf(tile), pass); });
   }

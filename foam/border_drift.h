@@ -10,11 +10,12 @@ namespace spume::foam {
 
 /// Draws the borders of a dry foam to Plateau's law: films that meet in a border at other angles than 120
 /// degrees pull it, and bubbles follow at the rate `border_rate`, dx/dt = rate f / (2 sigma), f of
-/// FilmForces. Deviation: forces of [Busaryev 2012] act along pairs; a border among three bubbles or a corner
-/// of six feels none of them. A motion beside the implicit step, not a force in it: springs, stiff enough to
-/// carry a pile, and what holding volumes adds to them would leave nothing of surface tension there. Films
-/// count by how dry and how far out of the liquid their bubbles are, (1 - lambda)(1 - chi). At rest the drift
-/// and what the springs take back of it in a step cancel.
+/// FilmForces, a tenth of f / (2 sigma) at most in a step. Deviation: forces of [Busaryev 2012] act along
+/// pairs; a border among three bubbles or a corner of six feels none of them. A motion beside the implicit
+/// step, not a force in it: springs, stiff enough to carry a pile, and what holding volumes adds to them
+/// would leave nothing of surface tension there. Films count by how dry and how far out of the liquid their
+/// bubbles are, (1 - lambda)(1 - chi). At rest the drift and what the springs take back of it in a step
+/// cancel.
 class BorderDrift {
  public:
   /// The drift of a step of dt [s] from the bubbles' present places, without effect at a rate of 0. Geometry

@@ -68,7 +68,7 @@ struct FoamParams {
   double wallStiffnessFactor = 10;   ///< wall spring = factor x spring stiffness [-], 0 to 1000
   double contactDamping = 0.2;       ///< zeta of c_lap = 2 zeta sqrt(k m) [-], 0 to 5
   /// rate at which films draw their borders to Plateau's law, see border_drift.h [1/s], 0 (none, costs
-  /// nothing) to 100
+  /// nothing) to 100; a step goes at most a tenth of the way, which rates above 5 meet in steps of 20 ms
   double borderRate = 0;
 
   VolumeMode volumeMode = VolumeMode::relax;  ///< each cell by itself, or all with their neighbours in mind

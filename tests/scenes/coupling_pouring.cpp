@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 
 #include "coupling/scene_toml.h"
 #include "coupling/simulation.h"
@@ -18,13 +19,17 @@ constexpr double kLedgerTolerance = 1e-12;
 /// follows with a delay, grow as dx.
 constexpr double kVolumeTolerance = 0.01;
 
-/// Deepest overlap with a wall that the one-sided contact spring leaves, in radii. A radius that grows at the
-/// end of a step, to hold its gas where neighbours press, passes it until the wall has pushed in the next
-/// one: few do, and none by half.
-constexpr double kWallTolerance = 0.1, kPassingOverlap = 0.5;
-/// Share of the bubbles, counted in every step, that may overlap by more than kWallTolerance; none of 17000
-/// does here, 1 to 6 do in runs with walls two thirds to three times as stiff.
+/// Deepest overlap with a wall that the one-sided contact spring leaves, in radii.
+constexpr double kWallTolerance = 0.1;
+/// With `newton` a radius that grows at the end of a step, to hold its gas where neighbours press, passes
+/// that until the wall has pushed in the next one: few do, and none by half.
+constexpr double kPassingOverlap = 0.5;
+/// Share of the bubbles, counted in every step, that may do so; none of 17000 does here, 1 to 6 do in runs
+/// with walls two thirds to three times as stiff.
 constexpr double kPassingShare = 1e-3;
+/// The scene's `volume_tolerance`, and the share of the steps that may end with a cell off by more: 1 of 438
+/// does in `coke`, none here.
+constexpr double kCellTolerance = 5e-3, kStepsOff = 0.02;
 
 /// A bubble that arrives goes from liquid to surface; where the jet tears the surface it goes back and forth.
 constexpr int kFewClassChanges = 8;
@@ -34,9 +39,11 @@ constexpr double kRestlessShare = 0.3;
 constexpr std::size_t kFewestBirths = 100;
 
 /// The pouring scene at half resolution: the jet is four cells wide.
-Scene coarsePouring() {
+Scene coarsePouring(const std::string& volumeMode = "newton") {
   return readScene(std::string(SPUME_SOURCE_DIR) + "/data/scenes/pouring.toml",
-                   {{"domain.resolution", "32"}, {"liquid.markers_per_cell", "16"}});
+                   {{"domain.resolution", "32"},
+                    {"liquid.markers_per_cell", "16"},
+                    {"foam.volume_mode", "\"" + volumeMode + "\""}});
 }
 
 /// What a run must keep, watched after every step.
@@ -44,6 +51,7 @@ struct Watch {
   std::size_t births = 0;
   int otherBirths = 0, burstUnderWater = 0;
   double worstImbalance = 0, worstVolume = 0, deepest = 0;
+  int steps = 0, stepsOff = 0;         ///< those with a cell off by more than kCellTolerance
   std::size_t looks = 0, passing = 0;  ///< bubbles looked at in all steps; those deeper than kWallTolerance
   std::map<std::uint64_t, int> changes;
 
@@ -54,6 +62,8 @@ struct Watch {
     const double held = report.liquid.liquidVolume - report.immersedGas;
     const double target = report.liquid.targetVolume - report.immersedGas;
     worstVolume = std::max(worstVolume, std::abs(held - target) / target);
+    ++steps;
+    stepsOff += report.foam.volumeErrorMax > kCellTolerance;
     for (const Event& event : report.events) note(event);
     measureWalls(simulation);
   }
@@ -83,7 +93,7 @@ struct Watch {
 
 TEST(CoarsePouring, KeepsItsBooksItsWaterItsWallsAndItsClasses) {
   constexpr int kFrames = 40;
-  Simulation simulation(coarsePouring());
+  Simulation simulation(coarsePouring("relax"));
   Watch watch;
   for (int frame = 0; frame < kFrames; ++frame)
     simulation.advanceFrame([&](const StepReport& report) { watch.step(simulation, report); });
@@ -92,13 +102,27 @@ TEST(CoarsePouring, KeepsItsBooksItsWaterItsWallsAndItsClasses) {
   EXPECT_EQ(watch.otherBirths, 0);
   EXPECT_LT(watch.worstImbalance, kLedgerTolerance);
   EXPECT_LT(watch.worstVolume, kVolumeTolerance);
-  EXPECT_LT(watch.deepest, kPassingOverlap);
-  EXPECT_LT(static_cast<double>(watch.passing), kPassingShare * static_cast<double>(watch.looks))
-      << watch.passing << " of " << watch.looks;
+  EXPECT_LT(watch.deepest, kWallTolerance);
   EXPECT_EQ(watch.burstUnderWater, 0);
   std::size_t restless = 0;
   for (const auto& [id, count] : watch.changes) restless += count > kFewClassChanges;
   EXPECT_LT(restless, kRestlessShare * static_cast<double>(watch.births));
+}
+
+TEST(CoarsePouring, HoldsTheGasOfEveryCell) {
+  constexpr int kFrames = 40;
+  Simulation simulation(coarsePouring());
+  Watch watch;
+  for (int frame = 0; frame < kFrames; ++frame)
+    simulation.advanceFrame([&](const StepReport& report) { watch.step(simulation, report); });
+
+  EXPECT_GT(watch.births, kFewestBirths);
+  EXPECT_LT(watch.worstImbalance, kLedgerTolerance);
+  EXPECT_LE(watch.stepsOff, kStepsOff * watch.steps);
+  EXPECT_EQ(watch.burstUnderWater, 0);
+  EXPECT_LT(watch.deepest, kPassingOverlap);
+  EXPECT_LT(static_cast<double>(watch.passing), kPassingShare * static_cast<double>(watch.looks))
+      << watch.passing << " of " << watch.looks;
 }
 
 void expectSameField(const fluid::DenseField<float>& a, const fluid::DenseField<float>& b) {
