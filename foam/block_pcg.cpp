@@ -16,13 +16,14 @@ constexpr double kNear = 10;
 constexpr int kLook = 8;
 
 /// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used. What a
-/// register holds beyond the last entry are those of other runs, and does not count.
-inline Quad coupled(const SweptSystem& a, std::int32_t first, std::int32_t last, const Vector4f* known) {
+/// register holds beyond the last entry are those of other rows, and does not count.
+inline Quad coupled(const SweptSystem::Couplings& a, std::int32_t first, std::int32_t last,
+                    const Vector4f* known) {
   constexpr auto kStep = static_cast<std::int32_t>(kQuads);
-  static_assert(kStep <= SweptSystem::kPadding + 1);
+  static_assert(kStep <= SweptSystem::Couplings::kPadding + 1);
   QuadLanes sum = {};
   for (std::int32_t e = first; e < last; e += kStep) {
-    const QuadLanes coupling = firstQuads(loadQuads(&a.coupling[e]), last - e);
+    const QuadLanes coupling = firstQuads(loadQuads(&a.block[e]), last - e);
     const QuadLanes of = gatherQuads(known, &a.other[e]);
     sum += sumsOf(coupling * of) * coupling + fourthsOf(coupling) * of;
   }
@@ -49,7 +50,7 @@ int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, co
   Crew::lead(a.groups(), [&](Crew& crew) { iterations = iterate(crew, a, factor, b, goal, maxIterations); });
   forEachIndex(a.size(), [&](std::size_t k) {
     const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
-    x[k] += factor.scale[k].matrix().transpose() * sum;
+    x[a.source[k]] += factor.scale[k].matrix().transpose() * sum;
   });
   return iterations;
 }
@@ -84,12 +85,22 @@ int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky
 void BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b) {
   sweepForth(crew, a, [&](std::size_t, std::size_t k) {
     const TriangularBlock& scale = factor.scale[k];
-    const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
-    const Quad residual = scale.times(padded(b[k]) - known);
+    const Quad known = coupledForth(a, k);
+    const Quad residual = scale.times(padded(b[a.source[k]]) - known);
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
     state_[k] = {Vector4f::Zero(), toVector(residual), Vector4f::Zero(), Vector4f::Zero()};
     image_[k].setZero();
   });
+}
+
+/// What couplings with later rows of its block bring row `k`.
+inline Quad BlockPcg::coupledBack(const SweptSystem& a, std::size_t k) const {
+  return coupled(a.ahead, a.row[k].ahead, a.row[k + 1].ahead, known_.data());
+}
+
+/// What all its other couplings bring it.
+inline Quad BlockPcg::coupledForth(const SweptSystem& a, std::size_t k) const {
+  return coupled(a.known, a.row[k].behind, a.row[k + 1].behind, known_.data());
 }
 
 /// Goes `length` along the search direction.
@@ -111,7 +122,7 @@ double BlockPcg::searchBack(Crew& crew, const SweptSystem& a, const IncompleteCh
     const TriangularBlock& scale = factor.scale[k];
     advance(k, stride);
     const Quad residual = loadQuad(s.residual), direction = residual + turn * loadQuad(s.direction);
-    const Quad known = coupled(a, a.row[k].ahead, a.row[k].behind, known_.data());
+    const Quad known = coupledBack(a, k);
     const Quad step = direction + scale.times(known);
     known_[k] = toVector(scale.transposedTimes(step));
     s.direction = toVector(direction), s.step = toVector(step);
@@ -127,7 +138,7 @@ BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const In
     const State& s = state_[k];
     const TriangularBlock& scale = factor.scale[k];
     const Quad direction = loadQuad(s.direction), step = loadQuad(s.step);
-    const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
+    const Quad known = coupledForth(a, k);
     const Quad image = direction + factor.excess[k].times(step) - scale.times(known);
     known_[behind(k)] = toVector(-scale.transposedTimes(image));
     image_[k] = toVector(image);
@@ -156,7 +167,7 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
   });
   partial_.assign(a.groups(), {});
   sweepForth(crew, a, [&](std::size_t group, std::size_t k) {
-    const Quad known = coupled(a, a.row[k].behind, a.row[k].end, known_.data());
+    const Quad known = coupledForth(a, k);
     const Eigen::Vector3d scaled = state_[k].residual.head<3>().cast<double>();
     double* const sums = partial_[group].of;
     sums[0] += (factor.scale[k].solve(scaled) + toVector(known).head<3>().cast<double>()).squaredNorm();

@@ -47,6 +47,8 @@ class BlockPcg {
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
                     double momentum);
   Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor);
+  Quad coupledBack(const SweptSystem& a, std::size_t k) const;
+  Quad coupledForth(const SweptSystem& a, std::size_t k) const;
   void advance(std::size_t k, float length);
   double total(int which) const;
   Norms look(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length);

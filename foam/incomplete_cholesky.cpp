@@ -38,7 +38,7 @@ void IncompleteCholesky::factor(Crew& crew, const SweptSystem& a) {
   sweepForth(crew, a, [&](std::size_t, std::size_t k) {
     Eigen::Matrix3d d = a.diagonal[k];
     for (std::int32_t e = a.row[k].behind; e < a.row[k].beyond; ++e)
-      d -= sandwich(a.coupling[e], squareOf(scale[a.other[e] - behind]));
+      d -= sandwich(a.known.block[e], squareOf(scale[a.known.other[e] - behind]));
     setPivot(a, k, d);
   });
 }
