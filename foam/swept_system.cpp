@@ -43,19 +43,21 @@ std::vector<std::size_t> SweptSystem::cutBlocks(const BlockSystem& a) {
   return start;
 }
 
-/// The first row of each block of a group, then the second.
+/// Goes through the blocks of each group at speeds at which all end together.
 void SweptSystem::orderRows(const std::vector<std::size_t>& start) {
   source.clear(), source.reserve(start.back());
   groupStart_ = {0};
   for (std::size_t first = 0; first + 1 < start.size(); first += kAbreast) {
-    const std::size_t longest = [&] {
-      std::size_t rows = 0;
-      for (std::size_t b = first; b < first + kAbreast; ++b) rows = std::max(rows, start[b + 1] - start[b]);
-      return rows;
-    }();
-    for (std::size_t k = 0; k < longest; ++k)
-      for (std::size_t b = first; b < first + kAbreast; ++b)
-        if (start[b] + k < start[b + 1]) source.push_back(static_cast<std::int32_t>(start[b] + k));
+    std::size_t longest = 0, next[kAbreast];
+    for (std::size_t b = 0; b < kAbreast; ++b) {
+      next[b] = start[first + b];
+      longest = std::max(longest, start[first + b + 1] - next[b]);
+    }
+    for (std::size_t k = 1; k <= longest; ++k)
+      for (std::size_t b = 0; b < kAbreast; ++b) {
+        const std::size_t begin = start[first + b], rows = start[first + b + 1] - begin;
+        if ((next[b] - begin) * longest < k * rows) source.push_back(static_cast<std::int32_t>(next[b]++));
+      }
     groupStart_.push_back(source.size());
   }
   place_.resize(source.size());
