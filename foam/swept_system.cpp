@@ -1,6 +1,7 @@
 #include "foam/swept_system.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "foam/parallel.h"
 
@@ -28,6 +29,7 @@ std::vector<std::size_t> SweptSystem::cutBlocks(const BlockSystem& a) {
   constexpr std::size_t kOwnWork = 6;  // of a row without couplings, in couplings
   const std::size_t n = a.size();
   std::size_t groups = std::max(kLeastGroups, (n + kAbreast * kBlockRows - 1) / (kAbreast * kBlockRows));
+  groups = std::bit_ceil(groups);  // of which 2, 4, 8 threads get as many each
   groups = std::max<std::size_t>(1, std::min(groups, n / (kAbreast * kLeastRows)));
   const std::size_t blocks = std::min(kAbreast * groups, std::max<std::size_t>(1, n / kLeastRows));
   const std::size_t all = kOwnWork * n + a.other.size();

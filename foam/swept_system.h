@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,9 +21,10 @@ namespace spume::foam {
 /// fill the wait. Rows are numbered anew in the order in which they are swept, so that whatever a sweep reads
 /// it reads from one end to the other, which memory does several times faster than many places in turns.
 struct SweptSystem {
-  /// Rows of a block, on average at most: the larger, the better the factor; the fewer, the more threads.
-  static constexpr std::size_t kBlockRows = 4096;
-  static constexpr std::size_t kAbreast = 4;  ///< blocks a thread sweeps side by side, a group
+  /// Rows of a block, on average at most: the larger, the better the factor; the smaller, the more threads,
+  /// of which a few use up all that memory gives.
+  static constexpr std::size_t kBlockRows = 16384;
+  static constexpr std::size_t kAbreast = 2;  ///< blocks a thread sweeps side by side, a group
   static constexpr std::size_t kLeastGroups = 2;
   /// Rows of a block on average, at least: below, a cut costs more than it gains.
   static constexpr std::size_t kLeastRows = 512;
@@ -41,8 +43,11 @@ struct SweptSystem {
     std::vector<std::int32_t> other;
     std::vector<Coupling> block;
 
+    /// Room for n, not set, and the padding.
     void resize(std::int32_t n, std::int32_t nobody) {
-      other.assign(n + kPadding, nobody), block.assign(n + kPadding, Coupling::Zero());
+      other.resize(n + kPadding), block.resize(n + kPadding);
+      std::fill(other.end() - kPadding, other.end(), nobody);
+      std::fill(block.end() - kPadding, block.end(), Coupling::Zero());
     }
   };
   /// Where a row's couplings begin, by kind; each kind ends where the next row's begins.
