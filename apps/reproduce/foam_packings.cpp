@@ -6,6 +6,7 @@
 
 #include "apps/reproduce/foam_bench.h"
 #include "apps/reproduce/foam_studies.h"
+#include "apps/reproduce/jamming_path.h"
 #include "apps/reproduce/plateau_angles.h"
 #include "apps/reproduce/power_law.h"
 #include "apps/reproduce/shear_modulus.h"
@@ -199,40 +200,27 @@ struct Jamming {
   }
 
  private:
-  struct State {
-    double fraction;
-    SoftPacking::Census census;
-    double shearModulus;
-  };
-
   void expand(const SoftPackingParams& params, int packings) {
-    constexpr double kShrink = 0.5, kNearest = 1e-4;  // of the way to jamming; closest to it
-    constexpr double kFarthest = 0.02;                // from it the laws of the transition are fitted
+    constexpr double kNearest = 1e-4;   // closest to jamming
+    constexpr double kFarthest = 0.02;  // from it the laws of the transition are fitted
     SoftPacking packing(params);
-    std::vector<State> states;
-    double jams = params.fraction - 0.03;  // a first guess, for the first step
-    do {
-      if (!states.empty()) packing.setFraction(jams + kShrink * (states.back().fraction - jams));
-      settled = packing.relax() && settled;
-      const double modulus = shearModulus(packing.heldContacts(), packing.position().size(),
-                                          params.dimensions, std::pow(packing.edge(), params.dimensions));
-      states.push_back({packing.fraction(), packing.census(), modulus});
-      if (states.size() < 2) continue;
-      const State &before = states[states.size() - 2], &now = states.back();
-      jams = now.fraction - now.census.pressure * (before.fraction - now.fraction) /
-                                (before.census.pressure - now.census.pressure);
-    } while (states.back().fraction - jams > kNearest && states.size() < 30);
-    density += jams / packings, lowest = std::min(lowest, jams), highest = std::max(highest, jams);
-    loose += states.back().census.contacts / packings;
+    std::vector<double> modulus;
+    const JammingPath path(packing, kNearest, [&] {
+      modulus.push_back(shearModulus(packing.heldContacts(), packing.position().size(), params.dimensions,
+                                     std::pow(packing.edge(), params.dimensions)));
+    });
+    settled = path.settled && settled;
+    density += path.jams / packings, lowest = std::min(lowest, path.jams),
+                                     highest = std::max(highest, path.jams);
+    loose += path.states.back().census.contacts / packings;
     if (params.dimensions == 3) faces += voronoiFaces(packing) / packings;
-    for (const State& state : states) {
-      if (state.fraction - jams > kFarthest) continue;
-      // Balls held in a periodic box: as many contacts as coordinates but the shifts of all.
-      const double held = state.census.held * params.count,
-                   isostatic = 2 * params.dimensions * (1 - 1 / held);
-      contacts.add(state.fraction - jams, state.census.contacts - isostatic);
-      pressure.add(state.fraction - jams, state.census.pressure);
-      shear.add(state.fraction - jams, state.shearModulus);
+    for (std::size_t k = 0; k < path.states.size(); ++k) {
+      const auto& [fraction, census] = path.states[k];
+      const double beyond = fraction - path.jams;
+      if (beyond > kFarthest) continue;
+      contacts.add(beyond, excessContacts(census, params.count, params.dimensions));
+      pressure.add(beyond, census.pressure);
+      shear.add(beyond, modulus[k]);
     }
   }
 };

@@ -4,8 +4,9 @@ namespace spume::apps {
 
 Reproduction foamReproduction() {
   Reproduction table{"foam", "The foam beside published and exact figures", {}};
-  for (const std::vector<Study>& studies : {loneBubbleStudies(), attractionStudies(), clusterStudies(),
-                                            packingStudies(), crowdStudies(), restStudies()})
+  for (const std::vector<Study>& studies :
+       {loneBubbleStudies(), attractionStudies(), clusterStudies(), packingStudies(), contactStudies(),
+        crowdStudies(), restStudies()})
     table.studies.insert(table.studies.end(), studies.begin(), studies.end());
   return table;
 }

@@ -12,6 +12,7 @@ std::vector<Study> attractionStudies();  ///< pulls between floating bubbles and
 std::vector<Study> clusterStudies();     ///< clusters of few bubbles and ordered foams
 std::vector<Study> crowdStudies();       ///< many bubbles: momentum, volumes under pressure
 std::vector<Study> packingStudies();     ///< foams and packings of many cells: faces, contacts, order
+std::vector<Study> contactStudies();     ///< contacts of soft discs and of cells that hold their areas
 std::vector<Study> restStudies();        ///< arrival at the surface, rafts and piles at rest
 
 }  // namespace spume::apps

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "foam/counter_random.h"
+#include "foam/errors.h"
 #include "foam/forces/strong_spring.h"
 
 namespace spume::apps {
@@ -23,6 +25,10 @@ constexpr int kPatience = 5, kMaxSteps = 100000;
 constexpr double kAtRest = 1e-5;  ///< largest net force over the mean push of the contacts
 /// Mean push below which balls do not touch: a fraction of 1e-6 from where they begin to.
 constexpr double kNothing = 1e-6;
+
+/// Radii are then right to half of it, and so are forces: below kAtRest of the pushes met 1e-4 from jamming.
+constexpr double kAreaOff = 1e-10;
+constexpr int kMaxRounds = 50;  ///< of Newton's method, which takes two or three from a step to the next
 
 }  // namespace
 
@@ -48,8 +54,13 @@ void SoftPacking::setFraction(double fraction) {
   findForces();
 }
 
+double SoftPacking::largestRadius() const {
+  return *std::max_element(radius_.begin(), radius_.begin() + static_cast<std::ptrdiff_t>(position_.size()));
+}
+
 void SoftPacking::addImagesAlong(int axis) {
-  const double margin = 2 * params_.ratio + 2 * kRoam;
+  const double swell = cells_ ? kRoam : 0;  // of radii, before images are placed anew
+  const double margin = 2 * (imagedRadius_ + swell) + 2 * kRoam;
   const std::size_t soFar = placed_.size();
   for (std::size_t k = 0; k < soFar; ++k)
     for (const double side : {-edge_, edge_}) {
@@ -66,6 +77,7 @@ void SoftPacking::placeImages() {
   for (Vector3d& x : position_)
     for (int axis = 0; axis < params_.dimensions; ++axis) x[axis] -= edge_ * std::floor(x[axis] / edge_);
   imaged_ = placed_ = position_;
+  imagedRadius_ = largestRadius();
   shift_.assign(balls, Vector3d::Zero());
   radius_.resize(balls), ball_.resize(balls);
   for (std::size_t i = 0; i < balls; ++i) ball_[i] = static_cast<std::int32_t>(i);
@@ -76,17 +88,16 @@ bool SoftPacking::imagesSuffice() const {
   if (imaged_.size() != position_.size()) return false;
   for (std::size_t i = 0; i < imaged_.size(); ++i)
     if ((position_[i] - imaged_[i]).squaredNorm() > kRoam * kRoam) return false;
-  return true;
+  return !cells_ || largestRadius() < imagedRadius_ + kRoam;
 }
 
-void SoftPacking::findForces() {
+void SoftPacking::findOverlaps() {
   if (imagesSuffice())
     for (std::size_t k = 0; k < placed_.size(); ++k) placed_[k] = position_[ball_[k]] + shift_[k];
   else
     placeImages();
   near_.update(placed_, radius_);
-  contacts_.clear();
-  force_.assign(position_.size(), Vector3d::Zero());
+  overlaps_.clear();
   const auto balls = static_cast<std::int32_t>(position_.size());
   for (std::int32_t i = 0; i < balls; ++i) {
     const std::int32_t rank = near_.rank()[i];
@@ -95,11 +106,52 @@ void SoftPacking::findForces() {
       const Vector3d apart = placed_[i] - placed_[j];
       const double distance = apart.norm();
       if (distance == 0 || distance >= radius_[i] + radius_[j]) continue;
-      const foam::PairSpring spring = foam::strongSpring(kStiffness, radius_[i], radius_[j], 1, distance, 0);
-      force_[i] -= spring.tension / distance * apart;
-      if (i < ball_[j]) contacts_.push_back({i, ball_[j], -spring.tension, distance, -apart / distance});
+      overlaps_.push_back({i, ball_[j], apart, distance});
     }
   }
+}
+
+void SoftPacking::fillCells() {
+  cells_->measure(overlaps_, radius_);
+  for (int round = 0; round < kMaxRounds && cells_->worst() > kAreaOff; ++round) {
+    cells_->improve(radius_);
+    for (std::size_t k = 0; k < radius_.size(); ++k) radius_[k] = radius_[ball_[k]];
+    findOverlaps();
+    cells_->measure(overlaps_, radius_);
+  }
+}
+
+void SoftPacking::findForces() {
+  findOverlaps();
+  if (cells_) fillCells();
+  contacts_.clear();
+  force_.assign(position_.size(), Vector3d::Zero());
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    const auto& [i, j, apart, distance] = overlaps_[k];
+    const foam::PairSpring spring = foam::strongSpring(kStiffness, radius_[i], radius_[j], 1, distance, 0);
+    force_[i] -= spring.tension / distance * apart;
+    const bool film = !cells_ || cells_->edge(k) > 0;
+    if (i < j) contacts_.push_back({i, j, -spring.tension, distance, -apart / distance, film});
+  }
+}
+
+void SoftPacking::holdAreas() {
+  if (params_.dimensions != 2)
+    throw foam::InvalidParameter("SoftPackingParams.dimensions = " + std::to_string(params_.dimensions) +
+                                 ": only discs hold areas, take 2");
+  if (cells_) return;
+  std::vector<double> area;
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    area.push_back(std::numbers::pi * radius_[i] * radius_[i]);
+  cells_.emplace(area);
+  imaged_.clear();
+  findForces();
+}
+
+double SoftPacking::meanPush() const {
+  double mean = 0;
+  for (const Contact& c : contacts_) mean += c.push / static_cast<double>(contacts_.size());
+  return mean;
 }
 
 double SoftPacking::largestForce() const {
@@ -108,14 +160,18 @@ double SoftPacking::largestForce() const {
   return largest;
 }
 
+double SoftPacking::unrest() const {
+  const double mean = meanPush();
+  return mean > 0 ? largestForce() / mean : 0;
+}
+
 bool SoftPacking::relax() {
   velocity_.assign(position_.size(), Vector3d::Zero());
   double dt = kFirstStep, mix = kMix;
   int downhill = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
-    double push = 0;
-    for (const Contact& c : contacts_) push += c.push / static_cast<double>(contacts_.size());
-    if (push < kNothing || largestForce() < kAtRest * push) return true;
+    const double mean = meanPush();
+    if (worstArea() <= kAreaOff && (mean < kNothing || largestForce() < kAtRest * mean)) return true;
     double power = 0, speed = 0, force = 0;
     for (std::size_t i = 0; i < position_.size(); ++i) {
       power += force_[i].dot(velocity_[i]);
@@ -142,7 +198,7 @@ std::vector<std::uint8_t> SoftPacking::rattlers() const {
     more = false;
     std::fill(touched.begin(), touched.end(), 0);
     for (const Contact& c : contacts_)
-      if (!rattles[c.i] && !rattles[c.j]) ++touched[c.i], ++touched[c.j];
+      if (c.film && !rattles[c.i] && !rattles[c.j]) ++touched[c.i], ++touched[c.j];
     for (std::size_t i = 0; i < position_.size(); ++i) {
       const bool loose = touched[i] <= params_.dimensions;
       more = more || (loose && !rattles[i]);
@@ -156,7 +212,7 @@ std::vector<SoftPacking::Contact> SoftPacking::heldContacts() const {
   const std::vector<std::uint8_t> rattles = rattlers();
   std::vector<Contact> held;
   for (const Contact& c : contacts_)
-    if (!rattles[c.i] && !rattles[c.j]) held.push_back(c);
+    if (c.film && !rattles[c.i] && !rattles[c.j]) held.push_back(c);
   return held;
 }
 

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "apps/reproduce/cell_areas.h"
 #include "foam/overlap_pairs.h"
 
 namespace spume::apps {
@@ -19,7 +21,8 @@ struct SoftPackingParams {
 
 /// Soft balls in a periodic box that push each other apart by the strong spring of tangent bubbles
 /// (lambda = 1) and nothing else, brought to rest at any density: the harmonic spheres of the jamming
-/// transition [OHern 2003]. The smaller balls have radius 1, the springs stiffness 1.
+/// transition [OHern 2003]. The smaller balls have radius 1, the springs stiffness 1. Discs may then become a
+/// foam of power cells that hold their areas.
 class SoftPacking {
  public:
   static constexpr double kStiffness = 1;
@@ -28,16 +31,28 @@ class SoftPacking {
     std::int32_t i, j;
     double push, distance;
     Eigen::Vector3d normal;  ///< from i to j
+    bool film = true;        ///< whether the cells meet; of soft balls always
   };
 
   explicit SoftPacking(const SoftPackingParams& params);
 
-  /// Share of the box that the balls fill.
+  /// From now on every disc is cut by its radical lines, and its radius is such that the cell has the area
+  /// the disc had alone; the springs act between the new radii. Only cells that meet count as contacts; discs
+  /// whose overlap others cover still push each other, as bubbles do. To be called at rest: cells of discs
+  /// that lie on each other can not all be filled. Throws foam::InvalidParameter in three dimensions.
+  void holdAreas();
+  /// Largest relative departure of a cell's area from the one it holds; 0 of soft balls.
+  double worstArea() const { return cells_ ? cells_->worst() : 0; }
+  /// Largest net force on a ball over the mean push of the contacts; 0 if there are none.
+  double unrest() const;
+
+  /// Share of the box that the balls fill; that of the gas where areas are held.
   double fraction() const;
   /// Makes the box larger or smaller, the places with it.
   void setFraction(double fraction);
-  /// Lets the balls come to rest by the steps of FIRE [Bitzek 2006]: until no net force is above a small
-  /// share of the contacts' own, or no ball touches another. Returns whether they did.
+  /// Lets the balls come to rest by the steps of FIRE [Bitzek 2006]: until no net force is above 1e-5 of
+  /// the contacts' own, and cells hold their areas to 1e-10, or no ball touches another. Returns whether they
+  /// did.
   bool relax();
 
   /// The pushes between the balls as they are.
@@ -54,13 +69,18 @@ class SoftPacking {
   /// Places in [0, edge) and the edge of the box.
   const std::vector<Eigen::Vector3d>& position() const { return position_; }
   double edge() const { return edge_; }
+  double radius(std::size_t ball) const { return radius_[ball]; }
 
  private:
   std::vector<std::uint8_t> rattlers() const;
   void placeImages();
   void addImagesAlong(int axis);
+  double largestRadius() const;
   bool imagesSuffice() const;
+  void findOverlaps();
+  void fillCells();
   void findForces();
+  double meanPush() const;
   double largestForce() const;
 
   SoftPackingParams params_;
@@ -71,8 +91,11 @@ class SoftPacking {
   std::vector<std::int32_t> ball_;                            ///< behind each of them
   std::vector<Eigen::Vector3d> shift_;                        ///< from it
   std::vector<Eigen::Vector3d> imaged_;  ///< where the balls were when images were placed
+  double imagedRadius_ = 0;              ///< of the largest ball then
+  std::vector<Overlap> overlaps_;        ///< of every ball with all others, in order
   std::vector<Contact> contacts_;        ///< i < j
   foam::OverlapPairs near_;
+  std::optional<CellAreas> cells_;  ///< of discs that hold their areas
 };
 
 }  // namespace spume::apps
