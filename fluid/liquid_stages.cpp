@@ -146,9 +146,10 @@ void LiquidStages::transport(double dt, LiquidStepReport& report) {
   sorter.compact(state.negative);
 }
 
-void LiquidStages::correctSurface() {
-  correction.apply(static_cast<float>(state.grid.dx), solids.sides, state.positive, state.negative,
-                   state.phi);
+/// `flagsStand`: markers know already which of them have escaped.
+void LiquidStages::correctSurface(bool flagsStand) {
+  correction.apply(static_cast<float>(state.grid.dx), solids.sides, state.positive, state.negative, state.phi,
+                   flagsStand);
   extension.apply(state.phi);
 }
 
@@ -296,11 +297,11 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
                [&] { acceleration.find(state, solids, params, extrapolator, surfaceStands); });
   clock.time("solids", [&] { moveSolids(dt); });
   clock.time("transport", [&] { transport(dt, report); });
-  clock.time("correction", [&] { correctSurface(); });
+  clock.time("correction", [&] { correctSurface(false); });
   clock.time("reinitialize", [&] { reinitializer.apply(state.phi, &solids), extension.apply(state.phi); });
   clock.time("escape", [&] { loseMarkers(); });
   clock.time("drops", [&] { moveDrops(dt, report); });
-  clock.time("correction", [&] { correctSurface(); });
+  clock.time("correction", [&] { correctSurface(true); });  // flagged by the two before
   clock.time("reseed", [&] { reseed(); });
   clock.time("pockets", [&] { fillPockets(dt); });
   clock.time("inflow", [&] { pour(dt, gas, report); });

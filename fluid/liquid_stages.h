@@ -82,7 +82,7 @@ struct LiquidStages {
   void subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
   void moveSolids(double dt);
   void transport(double dt, LiquidStepReport& report);
-  void correctSurface();
+  void correctSurface(bool flagsStand);
   void loseMarkers();
   void moveDrops(double dt, LiquidStepReport& report);
   void launch(std::vector<Drop> launched, LiquidStepReport& report);

@@ -20,7 +20,7 @@ namespace {
 }  // namespace
 
 void LostMarkers::find(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign, double depth,
-                       const MarkerSet& markers) {
+                       MarkerSet& markers) {
   const float toDepth = static_cast<float>(-static_cast<int>(sign) / scene.grid.dx);
   lost_.resize((markers.size() + kMarkerChunk - 1) / kMarkerChunk);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
@@ -28,6 +28,7 @@ void LostMarkers::find(const MarkerScene& scene, const DenseField<float>& phi, M
     MarkerCells flags;
     const int count = static_cast<int>(last - first);
     sampleAtMarkers(phi, scene.solids.sides, markers, first, last, value);
+    flagEscapedMarkers(value, -toDepth, first, last, markers);
     std::vector<std::int32_t>& list = lost_[first / kMarkerChunk];
     list.clear();
     if (flagLost(toDepth, static_cast<float>(depth), count, value.data(), markers.radius.data() + first,

@@ -13,10 +13,10 @@ namespace spume::fluid {
 class LostMarkers {
  public:
   /// Calls body(n), in the order of the set, for every marker on the wrong side by more than `depth` and by
-  /// more than its own radius [cells].
+  /// more than its own radius [cells]. Sets the escaped flags of all.
   template <typename Body>
   void forEach(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign, double depth,
-               const MarkerSet& markers, const Body& body) {
+               MarkerSet& markers, const Body& body) {
     find(scene, phi, sign, depth, markers);
     for (const std::vector<std::int32_t>& chunk : lost_)
       for (const std::int32_t n : chunk) body(n);
@@ -24,7 +24,7 @@ class LostMarkers {
 
  private:
   void find(const MarkerScene& scene, const DenseField<float>& phi, MarkerSign sign, double depth,
-            const MarkerSet& markers);
+            MarkerSet& markers);
 
   std::vector<std::vector<std::int32_t>> lost_;  ///< of each chunk of markers
 };

@@ -7,6 +7,20 @@
 #include "fluid/marker_sampling.h"
 
 namespace spume::fluid {
+namespace {
+
+/// Flags the markers on the wrong side by more than their radius.
+void flagMarkers(float dx, const WallSides& sides, MarkerSign sign, const DenseField<float>& phi,
+                 MarkerSet& markers) {
+  const float toCells = static_cast<float>(static_cast<int>(sign)) / dx;
+  forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
+    MarkerValues values;
+    sampleAtMarkers(phi, sides, markers, first, last, values);
+    flagEscapedMarkers(values, toCells, first, last, markers);
+  });
+}
+
+}  // namespace
 
 MarkerCorrection::Offer& MarkerCorrection::offerAt(std::int32_t cell, float phi) {
   std::int32_t& slot = slot_[cell];
@@ -36,18 +50,14 @@ void MarkerCorrection::addSphere(float dx, const WallSides& sides, float x, floa
   }
 }
 
-/// Flags the markers on the wrong side by more than their radius and lists the values of their spheres.
-void MarkerCorrection::findEscaped(float dx, const WallSides& sides, MarkerSign sign,
-                                   const DenseField<float>& phi, MarkerSet& markers) {
-  const float toCells = static_cast<float>(static_cast<int>(sign)) / dx;
+/// Lists the values of the spheres of the markers that are flagged as escaped.
+void MarkerCorrection::listSpheres(float dx, const WallSides& sides, const DenseField<float>& phi,
+                                   const MarkerSet& markers) {
   chunks_.resize((markers.size() + kMarkerChunk - 1) / kMarkerChunk);
   forEachMarkerChunk(markers.size(), [&](std::size_t first, std::size_t last) {
     Chunk& chunk = chunks_[first / kMarkerChunk];
     chunk.escaped = 0;
     chunk.values.clear();
-    MarkerValues values;
-    sampleAtMarkers(phi, sides, markers, first, last, values);
-    flagEscapedMarkers(values, toCells, first, last, markers);
     forEachEscaped(markers, first, last, [&](std::size_t n) {
       ++chunk.escaped;
       addSphere(dx, sides, markers.x[n] - 0.5f, markers.y[n] - 0.5f, markers.z[n] - 0.5f, markers.radius[n],
@@ -71,12 +81,14 @@ void MarkerCorrection::collect(MarkerSign sign, const DenseField<float>& phi) {
 }
 
 void MarkerCorrection::apply(float dx, const WallSides& sides, MarkerSet& positive, MarkerSet& negative,
-                             DenseField<float>& phi) {
+                             DenseField<float>& phi, bool flagsStand) {
   if (slot_.size() != static_cast<std::size_t>(phi.count())) slot_.assign(phi.count(), -1);
   offers_.clear();
   escapedCount_ = 0;
   for (const MarkerSign sign : {MarkerSign::positive, MarkerSign::negative}) {
-    findEscaped(dx, sides, sign, phi, sign == MarkerSign::positive ? positive : negative);
+    MarkerSet& markers = sign == MarkerSign::positive ? positive : negative;
+    if (!flagsStand) flagMarkers(dx, sides, sign, phi, markers);
+    listSpheres(dx, sides, phi, markers);
     collect(sign, phi);
   }
   for (const Offer& offer : offers_) {

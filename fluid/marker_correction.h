@@ -17,8 +17,9 @@ class MarkerCorrection {
   /// phi+ = max over positive markers, phi- = min over negative ones, and the one nearer to zero wins. Sets
   /// the escaped flags. Ghosts of phi must be filled and are refilled. `dx` in [m].
   /// Beside thin walls a sphere reaches the cells of its own side alone.
+  /// `flagsStand`: the flags have been set since phi or the markers changed.
   void apply(float dx, const WallSides& sides, MarkerSet& positive, MarkerSet& negative,
-             DenseField<float>& phi);
+             DenseField<float>& phi, bool flagsStand = false);
 
   /// Markers that offered their sphere in the last call, both signs.
   std::size_t escapedCount() const { return escapedCount_; }
@@ -39,8 +40,7 @@ class MarkerCorrection {
   };
   static void addSphere(float dx, const WallSides& sides, float x, float y, float z, float radius,
                         const DenseField<float>& phi, std::vector<Value>& values);
-  void findEscaped(float dx, const WallSides& sides, MarkerSign sign, const DenseField<float>& phi,
-                   MarkerSet& markers);
+  void listSpheres(float dx, const WallSides& sides, const DenseField<float>& phi, const MarkerSet& markers);
   void collect(MarkerSign sign, const DenseField<float>& phi);
   Offer& offerAt(std::int32_t cell, float phi);
 

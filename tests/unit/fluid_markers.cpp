@@ -177,7 +177,11 @@ TEST(MarkerCorrection, BringsBackASurfaceThatWasMovedAway) {
     DenseField<float> phi =
         levelSet(pool.grid, [&](const auto& x) { return sphere(x) - shift * pool.grid.dx; });
     MarkerCorrection correction;
+    DenseField<float> again = phi;
     correction.apply(static_cast<float>(pool.grid.dx), pool.solids.sides, pool.positive, pool.negative, phi);
+    correction.apply(static_cast<float>(pool.grid.dx), pool.solids.sides, pool.positive, pool.negative, again,
+                     true);
+    EXPECT_TRUE(sameBits(phi, again));  // the flags of the first call stand
     double sum = 0;
     int cells = 0;
     forEachInner(pool.grid.cells, 0, [&](int i, int j, int k) {
@@ -347,7 +351,9 @@ TEST(MarkerEscape, ReleasesMarkersBelowTheEscapeDepthOnly) {
   EXPECT_EQ(escaped[0].speed, 0);  // all sinks together
   EXPECT_NEAR(escaped[0].position.y(), 6.9 * pool.grid.dx, 1e-6);
   EXPECT_NEAR(escaped[0].velocity.y(), -1, 1e-6);
-  EXPECT_EQ(pool.positive.size(), 2u);
+  ASSERT_EQ(pool.positive.size(), 2u);
+  EXPECT_EQ(pool.positive.escaped[0], 1);  // flagged, but not deep enough to go
+  EXPECT_EQ(pool.positive.escaped[1], 0);
 }
 
 }  // namespace
