@@ -69,7 +69,6 @@ SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, d
   }
   report.residual = norm / first;
   report.converged = reached();
-  shiftRigidly(a, x);
   return report;
 }
 
@@ -103,7 +102,8 @@ bool ImplicitSolve::solveDirectly(const BlockSystem& a, const Vectors3& b, doubl
   return true;
 }
 
-void ImplicitSolve::shiftRigidly(const BlockSystem& a, Vectors3& x) {
+void ImplicitSolve::balance(const BlockSystem& a, const Vectors3& b, Vectors3& x) {
+  residual(a, b, x);
   const auto add = [](const auto& p, const auto& q) { return (p + q).eval(); };
   const Eigen::Vector3d left = reduceIndices(
       x.size(), Eigen::Vector3d::Zero().eval(), [&](std::size_t i) { return residual_[i]; }, add);

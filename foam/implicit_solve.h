@@ -28,13 +28,16 @@ class ImplicitSolve {
   double residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
 
   /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. An iteration that does not get there
-  /// within `maxIterations` is finished by the direct solver, where its factor fits into memory. Ends with a
-  /// correction by a rigid motion of everything, so that total momentum changes by the outer forces alone to
-  /// round-off. A result that did not converge is still the best one found.
+  /// within `maxIterations` is finished by the direct solver, where its factor fits into memory. A result
+  /// that did not converge is still the best one found.
   SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
   /// The same when only `a.own` has changed since the last call of either: what depends on couplings is kept.
   SolveReport solveAgain(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
                          Vectors3& x);
+  /// Corrects x by a rigid motion of everything, after which the residuals add up to nothing but round-off:
+  /// couplings then leave total momentum as it is. Not for between solves: what it takes from all it adds to
+  /// the few rows that resist most, and they would have to be solved again.
+  void balance(const BlockSystem& a, const Vectors3& b, Vectors3& x);
   /// b - A x of each row as the last of these left it [kg m/s].
   const Vectors3& left() const { return residual_; }
 
@@ -42,7 +45,6 @@ class ImplicitSolve {
   int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, double& norm,
               Vectors3& x);
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
-  void shiftRigidly(const BlockSystem& a, Vectors3& x);
 
   LinearSolver solver_;
   bool couplingsKnown_ = false;  ///< swept_ holds those of the system

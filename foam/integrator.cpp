@@ -133,6 +133,7 @@ SolveReport Integrator::solveWithContacts(double dt) {
     if (!done.converged || (settled && aim <= goal)) break;
     aim = settled ? goal : std::max(goal, kAimStep * aim);
   }
+  if (first > goal) solver_.balance(system_, impulse_, change_);
   return report;
 }
 
