@@ -42,12 +42,13 @@ double dot(const Quad& a, const Quad& b) {
 
 }  // namespace
 
-int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
-                      int maxIterations, Vectors3& x) {
+int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double norm,
+                      double goal, int maxIterations, Vectors3& x) {
   state_.resize(a.size()), image_.resize(a.size());
   known_.assign(2 * a.size() + 2, Vector4f::Zero());
   int iterations = 0;
-  Crew::lead(a.groups(), [&](Crew& crew) { iterations = iterate(crew, a, factor, b, goal, maxIterations); });
+  Crew::lead(a.groups(),
+             [&](Crew& crew) { iterations = iterate(crew, a, factor, b, norm, goal, maxIterations); });
   forEachIndex(a.size(), [&](std::size_t k) {
     const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
     x[a.source[k]] += factor.scale[k].matrix().transpose() * sum;
@@ -57,15 +58,14 @@ int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, co
 
 /// Leaves the solution in the states' sums.
 int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
-                      double goal, int maxIterations) {
-  start(crew, a, factor, b);
+                      double norm, double goal, int maxIterations) {
   // |r| follows the norm the iteration knows closely enough to tell when to look at it.
-  Norms known = look(crew, a, factor, 0);
+  Norms known = {norm, start(crew, a, factor, b)};
   double slope = known.slope, length = 0, momentum = 0;
   int iterations = 0;
   for (; iterations < maxIterations && known.slope > 0; ++iterations) {
     const double guess = known.plain * std::sqrt(slope / known.slope);
-    if (guess <= goal || (guess <= kNear * goal && iterations % kLook == 0)) {
+    if (guess <= goal || (guess <= kNear * goal && (iterations + 1) % kLook == 0)) {
       known = look(crew, a, factor, std::exchange(length, 0));
       if (known.plain <= goal) break;
     }
@@ -77,20 +77,25 @@ int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky
     const double next = std::max(0.0, slope + length * (length * found.square - 2 * found.alongResidual));
     momentum = next / slope, slope = next;
   }
-  sweepForth(crew, a, [&](std::size_t, std::size_t k) { advance(k, static_cast<float>(length)); });
+  if (length != 0)
+    sweepForth(crew, a, [&](std::size_t, std::size_t k) { advance(k, static_cast<float>(length)); });
   return iterations;
 }
 
-/// Sets the residual to b, all else to 0. Knows no search direction yet.
-void BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b) {
-  sweepForth(crew, a, [&](std::size_t, std::size_t k) {
+/// Sets the residual to b, all else to 0. Knows no search direction yet. Returns r . M^-1 r.
+double BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                       const Vectors3& b) {
+  partial_.assign(a.groups(), {});
+  sweepForth(crew, a, [&](std::size_t group, std::size_t k) {
     const TriangularBlock& scale = factor.scale[k];
     const Quad known = coupledForth(a, k);
     const Quad residual = scale.times(padded(b[a.source[k]]) - known);
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
     state_[k] = {Vector4f::Zero(), toVector(residual), Vector4f::Zero(), Vector4f::Zero()};
     image_[k].setZero();
+    partial_[group].of[0] += dot(residual, residual);
   });
+  return total(0);
 }
 
 /// What couplings with later rows of its block bring row `k`.

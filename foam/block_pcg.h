@@ -15,9 +15,9 @@ namespace spume::foam {
 class BlockPcg {
  public:
   /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
-  /// as the iteration knows, or `maxIterations`. Returns the iterations made.
-  int improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double goal,
-              int maxIterations, Vectors3& x);
+  /// as the iteration knows, or `maxIterations`; `norm` is |b|. Returns the iterations made.
+  int improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double norm,
+              double goal, int maxIterations, Vectors3& x);
 
  private:
   /// What the iteration knows of a row, in one cache line. With G of IncompleteCholesky and the search
@@ -42,8 +42,8 @@ class BlockPcg {
   };
 
   int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
-              double goal, int maxIterations);
-  void start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
+              double norm, double goal, int maxIterations);
+  double start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
                     double momentum);
   Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor);

@@ -84,7 +84,7 @@ int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal,
   int iterations = 0;
   for (int pass = 0; pass < kRefinements && norm > goal && iterations < maxIterations; ++pass) {
     const double aim = std::max(kAim * goal, kSinglePrecision * norm);
-    iterations += pcg_.improve(swept_, cholesky_, residual_, aim, maxIterations - iterations, x);
+    iterations += pcg_.improve(swept_, cholesky_, residual_, norm, aim, maxIterations - iterations, x);
     const double last = std::exchange(norm, residual(a, b, x));
     if (norm > kStalled * last) break;
   }
