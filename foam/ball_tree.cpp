@@ -1,28 +1,46 @@
 #include "foam/ball_tree.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "foam/cell_hash.h"
+#include "foam/hilbert_curve.h"
 #include "foam/parallel.h"
 
 namespace spume::foam {
 
 namespace {
 
-constexpr int kClasses = 64;        ///< sizes told apart: 2^64 from smallest to largest
+/// Boxes are wider by that, relatively: some ulp, so that no ball is missed from one side alone.
+constexpr double kRoundOff = 4e-15;
+constexpr double kTieSpare = 1e-8;  ///< of radii, which ties may change by less
 constexpr double kNowhere = 1e200;  ///< its square is infinite: nothing reaches it
 constexpr auto kInfinity = std::numeric_limits<double>::infinity();
 static_assert(BallTree::kFan % kLanes == 0);
 
-Eigen::Vector3d lowCorner(const std::vector<Eigen::Vector3d>& position) {
+struct Bounds {
+  Eigen::Vector3d low, high;
+};
+
+Bounds boundsOf(const std::vector<Eigen::Vector3d>& position) {
   return reduceIndices(
-      position.size(), position[0], [&](std::size_t i) { return position[i]; },
-      [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cwiseMin(b).eval(); });
+      position.size(), Bounds{position[0], position[0]},
+      [&](std::size_t i) {
+        return Bounds{position[i], position[i]};
+      },
+      [](const Bounds& a, const Bounds& b) {
+        return Bounds{a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+      });
+}
+
+/// The mean octave of the radii.
+int usualOctave(const std::vector<double>& radius) {
+  const auto octave = [&](std::size_t i) { return std::int64_t{std::ilogb(radius[i])}; };
+  const std::int64_t sum = reduceIndices(radius.size(), std::int64_t{0}, octave, std::plus<>());
+  return static_cast<int>(sum / static_cast<std::int64_t>(radius.size()));
 }
 
 std::size_t wholeClusters(std::size_t count) {
@@ -75,7 +93,7 @@ void BallTree::build(const std::vector<Eigen::Vector3d>& position, const std::ve
                      double reach) {
   const std::size_t n = radius.size(), padded = wholeClusters(n);
   order_.resize(n), index_.resize(padded);
-  height_ = 0;
+  height_ = 0, reach_ = reach;
   if (n == 0) return;
   sort(position, radius);
   for (auto* column : {&x_, &y_, &z_, &far_}) column->resize(padded);
@@ -87,21 +105,22 @@ void BallTree::build(const std::vector<Eigen::Vector3d>& position, const std::ve
   boxClusters();
 }
 
-/// Cells of the curve are as wide as the balls of the class. Coordinates wrap far out, which costs time but
-/// finds the same.
+/// Cells are half as wide as a usual ball's radius. Coordinates wrap far out, which costs time but finds the
+/// same.
 void BallTree::sort(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) {
-  const Eigen::Vector3d low = lowCorner(position);
-  const int top = std::ilogb(*std::max_element(radius.begin(), radius.end()));
-  keys_.resize(radius.size());
+  const auto [low, high] = boundsOf(position);
+  const double size = std::ldexp(1.0, usualOctave(radius) - 1);
+  const std::int64_t last = cellCoordinate((high - low).maxCoeff(), size);
+  const int levels =
+      std::min(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(last))), kCellAxisBits);
+  keys_.resize(radius.size()), spareKeys_.resize(radius.size());
   forEachIndex(radius.size(), [&](std::size_t i) {
-    const int octave = std::ilogb(radius[i]);
-    const auto number = static_cast<std::uint64_t>(std::min(top - octave, kClasses - 1));
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis)
-      code |= spreadCellBits(cellCoordinate(position[i][axis] - low[axis], std::ldexp(1.0, octave))) << axis;
-    keys_[i] = {number << (3 * kCellAxisBits) | code, static_cast<std::int32_t>(i)};
+      code |= spreadCellBits(cellCoordinate(position[i][axis] - low[axis], size)) << axis;
+    keys_[i] = {hilbertPlace(code, levels), static_cast<std::int32_t>(i)};
   });
-  tbb::parallel_sort(keys_.begin(), keys_.end());
+  radixSort(keys_, spareKeys_, radius.size(), 3 * levels);
 }
 
 void BallTree::boxClusters() {
@@ -109,15 +128,15 @@ void BallTree::boxClusters() {
   Boxes& boxes = levels_[0];
   boxes.reserve(static_cast<std::size_t>(clusters()));
   boxes.count = static_cast<std::size_t>(clusters());
-  const std::vector<double>* centre[3] = {&x_, &y_, &z_};
+  const RawBuffer<double>* centre[3] = {&x_, &y_, &z_};
   forEachIndex(boxes.count, [&](std::size_t cluster) {
     const std::size_t begin = cluster * kFan, end = std::min(begin + kFan, order_.size());
     boxes.number[cluster] = static_cast<std::int32_t>(cluster);
     for (int axis = 0; axis < 3; ++axis) {
       double low = kInfinity, high = -kInfinity;
       for (std::size_t s = begin; s < end; ++s) {
-        low = std::min(low, (*centre[axis])[s] - far_[s]);
-        high = std::max(high, (*centre[axis])[s] + far_[s]);
+        const double x = (*centre[axis])[s], far = far_[s] + kRoundOff * (std::abs(x) + far_[s]);
+        low = std::min(low, x - far), high = std::max(high, x + far);
       }
       boxes.low[axis][cluster] = low, boxes.high[axis][cluster] = high;
     }
@@ -171,7 +190,7 @@ void BallTree::openCluster(std::int32_t cluster, Query& query) const {
 
 /// Lists the open clusters whose box is no farther from a ball's centre than it reaches: a third of them.
 std::size_t BallTree::findClosest(std::int32_t s, Query& query) const {
-  const double centre[3] = {x_[s], y_[s], z_[s]}, far2 = far_[s] * far_[s];
+  const double centre[3] = {x_[s], y_[s], z_[s]}, far2 = far_[s] * far_[s] * (1 + kRoundOff);
   if (query.closest.size() < query.open.count + kFan) query.closest.resize(2 * (query.open.count + kFan));
   std::size_t closest = 0;
   for (std::size_t k = 0; k < query.open.count; k += kLanes) {
@@ -191,15 +210,20 @@ std::size_t BallTree::findClosest(std::int32_t s, Query& query) const {
 void BallTree::findNear(std::int32_t s, Query& query) const {
   const std::size_t closest = findClosest(s, query);
   if (query.near.size() < (closest + 1) * kFan) query.near.resize(2 * (closest + 1) * kFan);
-  const double x = x_[s], y = y_[s], z = z_[s], far = far_[s];
+  const double x = x_[s], y = y_[s], z = z_[s], far = far_[s], out = (2 / reach_ - 1) * far;
   std::size_t found = 0;
+  query.holders.clear();
   for (std::size_t c = 0; c < closest; ++c)
     for (std::size_t k = 0; k < kFan; k += kLanes) {
       const std::size_t t = static_cast<std::size_t>(query.closest[c]) * kFan + k;
       const Lanes dx = loadLanes(&x_[t]) - x, dy = loadLanes(&y_[t]) - y, dz = loadLanes(&z_[t]) - z,
-                  near = loadLanes(&far_[t]) + far;
-      std::uint32_t bits = bitsOf(dx * dx + dy * dy + dz * dz < near * near);
+                  other = loadLanes(&far_[t]), near = other + far, inner = other * (1 + kTieSpare) - out,
+                  distance2 = dx * dx + dy * dy + dz * dz;
+      std::uint32_t bits = bitsOf(distance2 < near * near);
       if (const std::size_t own = static_cast<std::size_t>(s) - t; own < kLanes) bits &= ~(1u << own);
+      for (std::uint32_t left = bits & bitsOf((inner > 0) & (distance2 <= inner * inner)); left != 0;
+           left &= left - 1)
+        query.holders.push_back(static_cast<std::int32_t>(t) + std::countr_zero(left));
       found += storeSelected(bits, &index_[t], &query.near[found]);
     }
   query.found = found;

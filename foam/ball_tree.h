@@ -5,13 +5,16 @@
 #include <vector>
 
 #include "foam/lane_math.h"
+#include "foam/radix_sort.h"
+#include "foam/raw_buffer.h"
 
 namespace spume::foam {
 
-/// Balls in a tree of boxes, to find those near a ball (performance, "Foam geometry"): sorted by size, a
-/// class for each octave of radius, and within a class along a Morton curve whose cells are as large as the
-/// balls, so that eight in a row lie together whatever the mix of sizes; then boxes around each eight of
-/// them, each eight boxes, and so on. Memory is kept from build to build.
+/// Balls in a tree of boxes, to find those near a ball (performance, "Foam geometry"): sorted along Hilbert's
+/// curve, boxes around each eight in a row, each eight boxes, and so on. Small balls that share a box with a
+/// large one are looked at wherever it reaches, which costs no more than the large one alone: eight are
+/// tested at once. A class for each octave of sizes would tell them apart, but the boxes of sparse classes
+/// are wide and meet each other everywhere. Memory is kept from build to build.
 class BallTree {
  public:
   static constexpr std::int32_t kFan = 8;  ///< balls in a cluster, and boxes in a larger one
@@ -36,7 +39,8 @@ class BallTree {
     Boxes around, open;                 ///< clusters near that group, and near the open cluster
     std::vector<std::int32_t> closest;  ///< of those, the ones that a ball may be near to
     std::size_t found = 0;
-    std::vector<std::int32_t> near;  ///< what has been found, in its first `found` places
+    std::vector<std::int32_t> near;     ///< what has been found, in its first `found` places
+    std::vector<std::int32_t> holders;  ///< those of the balls near in which that ball may come to lie
   };
 
   /// Sorts the balls at `position` [m] with `radius` [m, > 0]. Near is a distance below `reach` (r_i + r_j).
@@ -52,30 +56,24 @@ class BallTree {
   /// new tree needs a new Query.
   void openCluster(std::int32_t cluster, Query& query) const;
   /// Lists in `query.near` the input indices of all balls near that at place `s`, itself left out, in the
-  /// order of the tree; its cluster must be open.
+  /// order of the tree; its cluster must be open. Of two balls that are near each finds the other, to the
+  /// last bit. `query.holders`: places of those within r_j - r_i + (reach - 1) (r_i + r_j).
   void findNear(std::int32_t s, Query& query) const;
 
  private:
-  struct SortKey {
-    std::uint64_t curve;
-    std::int32_t index;
-    bool operator<(const SortKey& other) const {
-      return curve != other.curve ? curve < other.curve : index < other.index;
-    }
-  };
-
   void sort(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
   void boxClusters();
   void boxLevel(const Boxes& finer, Boxes& coarser) const;
   void openGroup(std::int32_t group, Query& query) const;
   std::size_t findClosest(std::int32_t s, Query& query) const;
 
-  std::vector<SortKey> keys_;
-  std::vector<std::int32_t> order_;      ///< padded nowhere: as long as there are balls
-  std::vector<std::int32_t> index_;      ///< order_, padded to whole clusters
-  std::vector<double> x_, y_, z_, far_;  ///< centres and `reach` r [m], padded to whole clusters
-  std::vector<Boxes> levels_;            ///< from the clusters' boxes up
-  std::int32_t height_ = 0;              ///< levels in use
+  double reach_ = 1;
+  RawBuffer<SortKey> keys_, spareKeys_;
+  std::vector<std::int32_t> order_;    ///< padded nowhere: as long as there are balls
+  RawBuffer<std::int32_t> index_;      ///< order_, padded to whole clusters
+  RawBuffer<double> x_, y_, z_, far_;  ///< centres and `reach` r [m], padded to whole clusters
+  std::vector<Boxes> levels_;          ///< from the clusters' boxes up
+  std::int32_t height_ = 0;            ///< levels in use
 };
 
 }  // namespace spume::foam

@@ -4,6 +4,9 @@
 #include <numeric>
 
 #include "foam/ball_tree.h"
+#include "foam/cell_hash.h"
+#include "foam/hilbert_curve.h"
+#include "foam/radix_sort.h"
 #include "foam/short_sort.h"
 #include "tests/support/foam_balls.h"
 
@@ -52,6 +55,36 @@ TEST(BallTree, OneFarAwayAndManyInOnePlaceAreFound) {
   for (int k = 0; k < 40; ++k) balls.add(balls.position[3], 1);
   BallTree tree;
   expectAllFound(balls, tree, false);
+}
+
+TEST(HilbertCurve, CellsThatFollowEachOtherShareAFace) {
+  constexpr int kLevels = 4, kSide = 1 << kLevels;
+  std::vector<Eigen::Vector3i> along(kSide * kSide * kSide, Eigen::Vector3i::Constant(-1));
+  for (int x = 0; x < kSide; ++x)
+    for (int y = 0; y < kSide; ++y)
+      for (int z = 0; z < kSide; ++z)
+        along[hilbertPlace(spreadCellBits(x) | spreadCellBits(y) << 1 | spreadCellBits(z) << 2, kLevels)] = {
+            x, y, z};
+  for (std::size_t k = 1; k < along.size(); ++k)
+    EXPECT_EQ((along[k] - along[k - 1]).lpNorm<1>(), 1) << "place " << k;
+}
+
+TEST(RadixSort, SortsByAsManyBitsAsAskedAndLeavesTies) {
+  for (int bits : {0, 5, 11, 12, 57}) {
+    constexpr std::size_t kCount = 3000;
+    RawBuffer<SortKey> keys, spare;
+    keys.resize(kCount), spare.resize(kCount);
+    std::vector<std::pair<std::uint64_t, std::int32_t>> expected;
+    for (std::size_t k = 0; k < kCount; ++k) {
+      const std::uint64_t key = CounterRandom(7, k, 1).bits() & ((1ull << bits) - 1);
+      keys[k] = {key, static_cast<std::int32_t>(k)};
+      expected.push_back({key, static_cast<std::int32_t>(k)});
+    }
+    std::sort(expected.begin(), expected.end());
+    radixSort(keys, spare, kCount, bits);
+    for (std::size_t k = 0; k < kCount; ++k)
+      EXPECT_EQ(std::pair(keys[k].key, keys[k].index), expected[k]) << bits << " bits";
+  }
 }
 
 TEST(ShortSort, SortsListsOfAnyLength) {
