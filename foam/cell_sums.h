@@ -8,14 +8,15 @@
 
 namespace spume::foam {
 
-/// A film as its two cells need it: a radical plane's disc, cut by all other planes.
+/// A film as its two cells need it: a radical plane's disc, cut by all other planes. What undoes the jitter
+/// is 1e-9 of what it is added to: single precision is plenty.
 struct FilmShape {
-  bool empty = true;
-  double area = 0;       ///< with the tie-breaking jitter [m^2]
-  double areaShift = 0;  ///< what undoing the jitter adds to the area, to first order [m^2]
-  double arc = 0;        ///< angle of the disc's rim that is left, seen from the disc's centre, 0..2 pi
-  double solidNear = 0;  ///< solid angle from the centre of the bubble the height is measured from, 0..2 pi
-  double solidFar = 0;   ///< the same from the other bubble's centre
+  double area = 0;        ///< with the tie-breaking jitter [m^2]
+  double arc = 0;         ///< angle of the disc's rim that is left, seen from the disc's centre, 0..2 pi
+  double solidNear = 0;   ///< solid angle from the centre of the bubble the height is measured from, 0..2 pi
+  double solidFar = 0;    ///< the same from the other bubble's centre
+  float areaShift = 0;    ///< what undoing the jitter adds to the area, to first order [m^2]
+  float heightShift = 0;  ///< and to the height of the plane [m]
 
   double trueArea() const { return std::max(0.0, area + areaShift); }
 };
@@ -28,7 +29,9 @@ class CellSums {
   explicit CellSums(const TieBrokenBall& ball) : ball_(ball) {}
 
   /// A plane that limits the cell, with or without a film, at signed height h from the centre [m].
-  void addPlane(double height) { centreInside_ = centreInside_ && height >= 0; }
+  void addPlane(double height) { limit(height >= 0); }
+  /// Several planes at once: whether none of them cuts the centre away.
+  void limit(bool centreInside) { centreInside_ = centreInside_ && centreInside; }
 
   /// The film in that plane; `solid` is its solid angle from this centre, `heightShift` undoes the jitter of
   /// h.

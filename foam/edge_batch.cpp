@@ -85,11 +85,11 @@ void EdgeBatch::flush() {
     const double roundOff = kAngleRoundOff * static_cast<double>(disc.end - begin);
     const double angle = disc.closed || whole - sums.spanned < roundOff ? whole : sums.spanned;
     FilmShape& film = *disc.film;
-    film.empty = false;
     film.arc = whole - angle;
     film.area = (sums.triangles + disc.discRadius2 * film.arc) / 2;
-    film.areaShift =
-        sums.shifts + film.arc * (balls.radius * balls.radiusShift - balls.height * balls.heightShift);
+    film.areaShift = static_cast<float>(
+        sums.shifts + film.arc * (balls.radius * balls.radiusShift - balls.height * balls.heightShift));
+    film.heightShift = static_cast<float>(balls.heightShift);
     film.solidNear = angle - sums.near + (1 - std::abs(balls.height) / balls.radius) * film.arc;
     film.solidFar = angle - sums.far + (1 - std::abs(balls.farHeight) / balls.farRadius) * film.arc;
     begin = disc.end;

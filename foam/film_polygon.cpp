@@ -51,10 +51,11 @@ FilmShape FilmPolygon::integrate() const {
   const Real arc = std::max<Real>(0, sign * sums.rim);
   const auto capShare = [](Real height, Real radius) { return 1 - std::abs(height) / radius; };
   FilmShape shape;
+  shape.heightShift = static_cast<float>(heightShift_);
   shape.arc = static_cast<double>(arc);
   shape.area = static_cast<double>((sign * sums.triangles + discRadius2_ * arc) / 2);
   shape.areaShift =
-      static_cast<double>(sums.shifts + arc * (near_.radius * near_.radiusShift - height_ * heightShift_));
+      static_cast<float>(sums.shifts + arc * (near_.radius * near_.radiusShift - height_ * heightShift_));
   shape.solidNear = static_cast<double>(sign * sums.solidNear + capShare(height_, near_.radius) * arc);
   shape.solidFar = static_cast<double>(sign * sums.solidFar + capShare(farHeight_, far_.radius) * arc);
   return shape;

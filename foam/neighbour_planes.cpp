@@ -1,59 +1,86 @@
 #include "foam/neighbour_planes.h"
 
+#include <bit>
+
 namespace spume::foam {
 
 namespace {
 
 /// As radicalHeight, in lanes.
-Lanes heightOf(const Lanes& radius, const Lanes& other, const Lanes& distance) {
-  return (distance + (radius - other) * ((radius + other) / distance)) / 2;
+Lanes heightOf(const Lanes& radius, const Lanes& other, const Lanes& distance, const Lanes& inverse) {
+  return (distance + (radius - other) * ((radius + other) * inverse)) / 2;
 }
 
 }  // namespace
 
-TieBrokenBall RankedBalls::ball(std::int32_t s) const {
-  TieBrokenBall ball;
-  ball.radius = place[s].radius, ball.radiusShift = radiusShift[s], ball.weightShift = weightShift[s];
-  return ball;
+void NeighbourPlanes::reserve(std::size_t count) {
+  const std::size_t room = paddedToLanes(count) + kLanes;  // closing gaps writes whole blocks
+  planes.resize(room);
+  if (radius.size() >= room) return;
+  for (auto* column : {&from_.x, &from_.y, &from_.z, &from_.radius, &from_.weightShift, &from_.visible,
+                       &distance, &radius, &farHeight})
+    column->resize(room);
+  for (auto* column : {&from_.index, &from_.link, &index, &link, &planeOf}) column->resize(room);
 }
 
-void NeighbourDistances::measure(const RankedBalls& balls, std::int32_t s, const std::int32_t* others,
-                                 std::size_t howMany) {
-  count = howMany;
-  if (const std::size_t padded = paddedToLanes(count); x.size() < padded)
-    for (auto* column : {&x, &y, &z, &radius, &distance}) column->resize(padded);
-  for (std::size_t k = 0; k < count; ++k) {
-    const RankedBalls::Place& other = balls.place[others[k]];
-    x[k] = other.x, y[k] = other.y, z[k] = other.z, radius[k] = other.radius;
-  }
-  const RankedBalls::Place& from = balls.place[s];
-  for (std::size_t k = 0; k < count; k += kLanes) {
-    const Lanes dx = loadLanes(&x[k]) - from.x, dy = loadLanes(&y[k]) - from.y,
-                dz = loadLanes(&z[k]) - from.z;
-    storeLanes(&x[k], dx), storeLanes(&y[k], dy), storeLanes(&z[k], dz);
-    storeLanes(&distance[k], squareRoot(dx * dx + dy * dy + dz * dz));
+void NeighbourPlanes::gather(const RawBuffer<RankedBall>& balls, const Candidates& candidates) {
+  for (std::size_t k = 0; k < candidates.count; ++k) {
+    const RankedBall& other = balls[candidates.rank[k]];
+    from_.x[k] = other.x, from_.y[k] = other.y, from_.z[k] = other.z;
+    from_.radius[k] = other.ball.radius, from_.weightShift[k] = other.ball.weightShift;
+    from_.visible[k] = other.visible, from_.index[k] = other.index;
   }
 }
 
-void NeighbourPlanes::find(const RankedBalls& balls, std::int32_t s, const std::int32_t* others,
-                           std::size_t count) {
-  to.measure(balls, s, others, count);
-  planes.resize(count);
-  if (const std::size_t padded = paddedToLanes(count); farHeight.size() < padded)
-    farHeight.resize(padded), weightShift.resize(padded);
-  for (std::size_t k = 0; k < count; ++k) weightShift[k] = balls.weightShift[others[k]];
-  const Lanes radius = Lanes{} + balls.place[s].radius;
-  for (std::size_t k = 0; k < count; k += kLanes) {
-    const Lanes d = loadLanes(&to.distance[k]), other = loadLanes(&to.radius[k]), inverse = 1 / d;
-    storeLanes(&planes.nx[k], loadLanes(&to.x[k]) * inverse);
-    storeLanes(&planes.ny[k], loadLanes(&to.y[k]) * inverse);
-    storeLanes(&planes.nz[k], loadLanes(&to.z[k]) * inverse);
-    storeLanes(&planes.height[k], heightOf(radius, other, d)),
-        storeLanes(&farHeight[k], heightOf(other, radius, d));
-    const Lanes shift = (balls.weightShift[s] - loadLanes(&weightShift[k])) / (2 * d);
-    const Lanes size = shift < 0 ? -shift : shift, smaller = radius < other ? radius : other;
-    storeLanes(&planes.heightShift[k], size < kMaxRelativeShift * smaller ? shift : Lanes{});
+void NeighbourPlanes::find(const RawBuffer<RankedBall>& balls, std::int32_t s, const Candidates& candidates) {
+  reserve(candidates.count);
+  gather(balls, candidates);
+  const RankedBall& own = balls[s];
+  overlaps = lower = planes.count = 0, centreInside = true;
+  for (std::size_t k = 0; k < candidates.count; k += kLanes) {
+    Block to{loadLanes(&from_.x[k]) - own.x,
+             loadLanes(&from_.y[k]) - own.y,
+             loadLanes(&from_.z[k]) - own.z,
+             {},
+             loadLanes(&from_.radius[k])};
+    to.distance = squareRoot(to.x * to.x + to.y * to.y + to.z * to.z);
+    touching_ = bitsOf(to.distance < own.ball.radius + to.radius) & lanesBelow(candidates.count - k);
+    const std::uint32_t cutting = own.visible > 0 ? touching_ & bitsOf(loadLanes(&from_.visible[k]) > 0) : 0;
+    for (std::uint32_t left = touching_, plane = planes.count, place = overlaps; left != 0; left &= left - 1)
+      planeOf[place++] = cutting >> std::countr_zero(left) & 1 ? static_cast<std::int32_t>(plane++) : -1;
+    addOverlaps(k, to, own.ball.radius, candidates);
+    addPlanes(k, to, own.ball, cutting);
   }
+}
+
+void NeighbourPlanes::addOverlaps(std::size_t k, const Block& to, double ownRadius,
+                                  const Candidates& candidates) {
+  const std::uint32_t below = k < candidates.lower ? lanesBelow(candidates.lower - k) : 0;
+  const std::uint32_t owned = bitsOf(ownRadius < to.radius) | (bitsOf(ownRadius == to.radius) & ~below);
+  for (std::size_t l = 0; l < kLanes; ++l)
+    from_.link[k + l] = 2 * candidates.pair[k + l] + static_cast<std::int32_t>(owned >> l & 1);
+  storeSelected(touching_, &from_.index[k], &index[overlaps]);
+  storeSelected(touching_, &from_.link[k], &link[overlaps]);
+  lower += static_cast<std::size_t>(std::popcount(touching_ & below));
+  overlaps += storeSelected(touching_, to.distance, &distance[overlaps]);
+}
+
+void NeighbourPlanes::addPlanes(std::size_t k, const Block& to, const TieBrokenBall& own,
+                                std::uint32_t cutting) {
+  const std::size_t end = planes.count;
+  const Lanes ownRadius = Lanes{} + own.radius, inverse = 1 / to.distance;
+  const Lanes height = heightOf(ownRadius, to.radius, to.distance, inverse);
+  const Lanes shift = (own.weightShift - loadLanes(&from_.weightShift[k])) * inverse / 2;
+  const Lanes size = shift < 0 ? -shift : shift, smaller = ownRadius < to.radius ? ownRadius : to.radius;
+  storeSelected(cutting, to.x * inverse, &planes.nx[end]);
+  storeSelected(cutting, to.y * inverse, &planes.ny[end]);
+  storeSelected(cutting, to.z * inverse, &planes.nz[end]);
+  storeSelected(cutting, height, &planes.height[end]);
+  storeSelected(cutting, size < kMaxRelativeShift * smaller ? shift : Lanes{}, &planes.heightShift[end]);
+  storeSelected(cutting, to.radius, &radius[end]);
+  planes.count +=
+      storeSelected(cutting, heightOf(to.radius, ownRadius, to.distance, inverse), &farHeight[end]);
+  centreInside = centreInside && (bitsOf(height < 0) & cutting) == 0;
 }
 
 }  // namespace spume::foam

@@ -10,41 +10,57 @@
 
 namespace spume::foam {
 
-/// The balls of a foam as the passes of the local engine read them, by rank: what is read together of a
-/// neighbour lies together.
-struct RankedBalls {
-  struct Place {
-    double x, y, z, radius;  ///< the centre and the radius that decides ties [m]
-  };
-  RawBuffer<Place> place;
-  RawBuffer<double> radiusShift, weightShift;  ///< as in TieBrokenBall
-
-  void resize(std::size_t balls) {
-    place.resize(balls), radiusShift.resize(balls), weightShift.resize(balls);
-  }
-  TieBrokenBall ball(std::int32_t s) const;
+/// A ball of a foam as the local engine reads it, by rank: all that is read of a neighbour in a cache line.
+struct alignas(64) RankedBall {
+  double x, y, z;      ///< the centre [m]
+  TieBrokenBall ball;  ///< whose radius decides
+  double visible;      ///< 0: its ball is hidden and cuts nothing; else 1
+  std::int32_t index;  ///< in the input
 };
 
-/// Distances between one ball and others, a block of lanes at a time; the same bits seen from either ball.
-struct NeighbourDistances {
-  std::size_t count = 0;
-  std::vector<double> x, y, z;   ///< of the others' centres from the ball's [m]
-  std::vector<double> radius;    ///< of the others [m]
-  std::vector<double> distance;  ///< of the centres [m]
-
-  /// Measures from ball s to `count` others. Padding lanes hold numbers that mean nothing.
-  void measure(const RankedBalls& balls, std::int32_t s, const std::int32_t* others, std::size_t count);
-};
-
-/// The radical planes of one ball with others, seen from both sides.
+/// What the neighbours of one ball are to it: which of its candidates overlap it, and the radical planes with
+/// those that can cut it. Distances have the same bits seen from either ball.
 struct NeighbourPlanes {
-  NeighbourDistances to;
-  CuttingPlanes planes;
-  std::vector<double> farHeight;    ///< signed distance of each plane from the other's centre [m]
-  std::vector<double> weightShift;  ///< of the others [m^2]
+  /// The neighbours that may overlap a ball.
+  struct Candidates {
+    const std::int32_t* rank;  ///< by ascending input index; padded for whole lanes, as the next
+    const std::int32_t* pair;  ///< number of the pair
+    std::size_t count, lower;  ///< how many; of lower input index than the ball
+  };
 
-  /// As NeighbourDistances::measure; a plane between coincident centres means nothing.
-  void find(const RankedBalls& balls, std::int32_t s, const std::int32_t* others, std::size_t count);
+  std::size_t overlaps = 0, lower = 0;  ///< candidates that overlap; of lower input index
+  std::vector<std::int32_t> index;      ///< input index of each overlap
+  std::vector<std::int32_t> link;       ///< twice the number of its pair, odd if the ball is its owner
+  std::vector<std::int32_t> planeOf;    ///< its plane, or -1: one of the two balls is hidden
+  std::vector<double> distance;         ///< of the centres [m]
+
+  CuttingPlanes planes;
+  std::vector<double> radius;     ///< of the ball behind each plane [m]
+  std::vector<double> farHeight;  ///< signed distance of the plane from its centre [m]
+  bool centreInside = true;       ///< no plane cuts this ball's centre away
+
+  /// For ball s. The smaller ball of a pair is the owner; of two that are the same the one of lower input
+  /// index.
+  void find(const RawBuffer<RankedBall>& balls, std::int32_t s, const Candidates& candidates);
+
+ private:
+  /// The candidates as columns.
+  struct Gathered {
+    std::vector<double> x, y, z, radius, weightShift, visible;
+    std::vector<std::int32_t> index, link;
+  };
+  /// From one ball to a block of others.
+  struct Block {
+    Lanes x, y, z, distance, radius;
+  };
+
+  void reserve(std::size_t count);
+  void gather(const RawBuffer<RankedBall>& balls, const Candidates& candidates);
+  void addOverlaps(std::size_t k, const Block& to, double ownRadius, const Candidates& candidates);
+  void addPlanes(std::size_t k, const Block& to, const TieBrokenBall& own, std::uint32_t cutting);
+
+  Gathered from_;
+  std::uint32_t touching_ = 0;  ///< bits of the block at hand
 };
 
 }  // namespace spume::foam

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -16,6 +17,17 @@ namespace {
 constexpr std::int32_t kClusterGrain = 16;  ///< clusters per parallel task
 constexpr std::size_t kUsualRow = 16;       ///< candidates of a bubble in a dense foam
 
+constexpr std::size_t kSearched = 4 * kLanes;  ///< at once: few rows are longer
+
+/// The first place of a value in a list that holds it and is padded by as many as are searched at once.
+const std::int32_t* findIn(const std::int32_t* list, std::int32_t value) {
+  for (;; list += kSearched) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < kSearched; k += kLanes) bits |= equalBits(list + k, value) << k;
+    if (bits != 0) return list + std::countr_zero(bits);
+  }
+}
+
 }  // namespace
 
 bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) {
@@ -27,6 +39,7 @@ bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const st
   forEachIndex(radius.size(), [&](std::size_t s) { rank_[order()[s]] = static_cast<std::int32_t>(s); });
   findRows();
   joinRows();
+  numberPairs();
   return true;
 }
 
@@ -52,10 +65,10 @@ bool OverlapPairs::stillValid(const std::vector<Eigen::Vector3d>& position,
 
 /// Each bubble finds its own row: each pair is tested twice, but no thread waits for another.
 void OverlapPairs::findRows() {
-  rowStart_.resize(static_cast<std::size_t>(size()) + 1),
-      upperStart_.resize(static_cast<std::size_t>(size()));
+  rowStart_.resize(static_cast<std::size_t>(size()) + 1), firstPair_.resize(rowStart_.size());
+  upperStart_.resize(static_cast<std::size_t>(size()));
   pieces_.resize(static_cast<std::size_t>(tree_.clusters() + kClusterGrain - 1) / kClusterGrain);
-  for (Finder& finder : finders_) finder.candidates.clear(), finder.query.group = -1;
+  for (Finder& finder : finders_) finder.candidates.clear(), finder.nestings.clear(), finder.query.group = -1;
   tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
     Finder& finder = finders_.local();
     finder.candidates.reserve(static_cast<std::size_t>(size()) *
@@ -73,23 +86,46 @@ void OverlapPairs::findRows() {
 void OverlapPairs::findRow(std::int32_t s, Finder& finder) {
   tree_.findNear(s, finder.query);
   sortShort(finder.query.near, finder.query.found, finder.sorted);
-  for (const std::int32_t i : finder.sorted) finder.candidates.push_back(rank_[i]);
   const auto upper = std::lower_bound(finder.sorted.begin(), finder.sorted.end(), order()[s]);
   rowStart_[s + 1] = static_cast<std::int32_t>(finder.sorted.size());
   upperStart_[s] = static_cast<std::int32_t>(upper - finder.sorted.begin());
+  firstPair_[s + 1] = 0;
+  for (std::int32_t& candidate : finder.sorted)
+    candidate = rank_[candidate], firstPair_[s + 1] += candidate > s;
+  finder.candidates.insert(finder.candidates.end(), finder.sorted.begin(), finder.sorted.end());
+  for (const std::int32_t holder : finder.query.holders) finder.nestings.push_back({s, holder});
 }
 
 /// Puts the rows, found by several threads, one after the other.
 void OverlapPairs::joinRows() {
-  rowStart_[0] = 0;
-  for (std::int32_t s = 0; s < size(); ++s) rowStart_[s + 1] += rowStart_[s], upperStart_[s] += rowStart_[s];
-  candidate_.resize(static_cast<std::size_t>(rowStart_.back()) + kLanes);
+  rowStart_[0] = firstPair_[0] = 0;
+  for (std::int32_t s = 0; s < size(); ++s) {
+    firstPair_[s + 1] += firstPair_[s];
+    rowStart_[s + 1] += rowStart_[s], upperStart_[s] += rowStart_[s];
+  }
+  candidate_.resize(slots() + kSearched), pair_.resize(slots() + kLanes);
   tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
     const std::int32_t first = static_cast<std::int32_t>(piece) * kClusterGrain * BallTree::kFan;
     const std::int32_t last = std::min(first + kClusterGrain * BallTree::kFan, size());
     const auto from =
         pieces_[piece].finder->candidates.begin() + static_cast<std::ptrdiff_t>(pieces_[piece].begin);
-    std::copy_n(from, rowStart_[last] - rowStart_[first], candidate_.begin() + rowStart_[first]);
+    std::copy_n(from, rowStart_[last] - rowStart_[first], candidate_.data() + rowStart_[first]);
+  });
+  nestings_.clear();
+  for (const Finder& finder : finders_)
+    nestings_.insert(nestings_.end(), finder.nestings.begin(), finder.nestings.end());
+}
+
+/// Numbers the pairs along the rows of their bubbles of lower rank, and tells the others.
+void OverlapPairs::numberPairs() {
+  forEachIndex(static_cast<std::size_t>(size()), [&](std::size_t place) {
+    const auto s = static_cast<std::int32_t>(place);
+    std::int32_t number = firstPair_[s];
+    for (std::int32_t slot = rowStart_[s]; slot < rowStart_[s + 1]; ++slot) {
+      const std::int32_t t = candidate_[slot];
+      if (t < s) continue;
+      pair_[slot] = pair_[findIn(&candidate_[rowStart_[t]], s) - candidate_.data()] = number++;
+    }
   });
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "foam/ball_tree.h"
+#include "foam/raw_buffer.h"
 
 namespace spume::foam {
 
@@ -15,14 +16,18 @@ namespace spume::foam {
 /// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. `ball_tree` finds
 /// the pairs.
 ///
-/// Bubbles are numbered here by *rank*, by size and along a curve through space: neighbours are near in
-/// memory. Rows list candidates by input index, so that what is summed along a row does not depend on when
-/// the list was built.
+/// Bubbles are numbered here by *rank*, along a curve through space: neighbours are near in memory. Rows list
+/// candidates by input index, so that what is summed along a row does not depend on when the list was built.
 class OverlapPairs {
  public:
   /// Free motion before a rebuild, in radii: larger means fewer rebuilds but longer rows (they grow with its
   /// cube).
   static constexpr double kSkin = 0.12;
+
+  /// The ball of one rank that may come to lie within that of another while the list holds.
+  struct Nesting {
+    std::int32_t inner, outer;
+  };
 
   /// Brings the list up to date for `position` [m] and `radius` [m, > 0], of equal length and finite. Returns
   /// true if it had to be rebuilt. The content may depend on earlier calls; the true overlaps within it do
@@ -35,16 +40,24 @@ class OverlapPairs {
   const std::vector<std::int32_t>& rank() const { return rank_; }
   /// The candidates of rank s are slots rowStart()[s] .. rowStart()[s + 1] - 1.
   const std::vector<std::int32_t>& rowStart() const { return rowStart_; }
+  std::size_t slots() const { return static_cast<std::size_t>(rowStart_.back()); }
   /// The slot from which on the candidates of each rank have higher input indices than its bubble.
   const std::vector<std::int32_t>& upperStart() const { return upperStart_; }
   /// Rank of the candidate in each slot; padded for whole lanes.
-  const std::vector<std::int32_t>& candidate() const { return candidate_; }
+  const RawBuffer<std::int32_t>& candidate() const { return candidate_; }
+  /// Number of the pair in each slot, the same in both rows, below slots() / 2; padded for whole lanes. Pairs
+  /// are numbered along the rows of their lower ranks: firstPair()[s] .. firstPair()[s + 1] - 1.
+  const RawBuffer<std::int32_t>& pair() const { return pair_; }
+  const std::vector<std::int32_t>& firstPair() const { return firstPair_; }
+  /// In no order.
+  const std::vector<Nesting>& nestings() const { return nestings_; }
 
  private:
   /// A thread's memory, and the rows it has found.
   struct Finder {
     BallTree::Query query;
     std::vector<std::int32_t> sorted, candidates;
+    std::vector<Nesting> nestings;
   };
   /// Where the rows of one parallel task are.
   struct Piece {
@@ -56,11 +69,15 @@ class OverlapPairs {
   void findRows();
   void findRow(std::int32_t s, Finder& finder);
   void joinRows();
+  void numberPairs();
 
   std::vector<Eigen::Vector3d> builtPosition_;  ///< by input index
   std::vector<double> builtRadius_;
   BallTree tree_;
-  std::vector<std::int32_t> rank_, rowStart_, upperStart_, candidate_;
+  std::vector<std::int32_t> rank_, rowStart_, upperStart_;
+  RawBuffer<std::int32_t> candidate_, pair_;
+  std::vector<Nesting> nestings_;
+  std::vector<std::int32_t> firstPair_;  ///< of each rank with higher ones
   tbb::enumerable_thread_specific<Finder> finders_;
   std::vector<Piece> pieces_;
 };

@@ -156,9 +156,7 @@ class DiagramMeasure {
                                                                         static_cast<double>(site.norm()));
       polygon.addCorner(dualCorner(here, a), site, shift);
     } while (cell != first);
-    FilmShape film = polygon.integrate();
-    film.empty = false;
-    return film;
+    return polygon.integrate();
   }
 
   const AlphaShape& shape_;

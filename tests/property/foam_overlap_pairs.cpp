@@ -36,6 +36,48 @@ PairSet listedOverlaps(const Balls& balls, const OverlapPairs& list) {
   return pairs;
 }
 
+/// Each pair has a number that its two rows know and no other pair has.
+void expectNumbered(const OverlapPairs& list) {
+  std::vector<std::pair<int, int>> ranks(list.slots() / 2, {-1, -1});
+  for (int s = 0; s < list.size(); ++s)
+    for (int slot = list.rowStart()[s]; slot < list.rowStart()[s + 1]; ++slot) {
+      const int number = list.pair()[slot], t = list.candidate()[slot];
+      ASSERT_TRUE(number >= 0 && number < static_cast<int>(ranks.size()));
+      if (s > t) {
+        EXPECT_EQ(ranks[number], std::pair(t, s));
+        continue;
+      }
+      EXPECT_EQ(ranks[number], std::pair(-1, -1));
+      EXPECT_TRUE(number >= list.firstPair()[s] && number < list.firstPair()[s + 1]);
+      ranks[number] = {s, t};
+    }
+}
+
+TEST(OverlapPairs, BothRowsKnowTheNumberOfAPair) {
+  for (double clip : {1.0001, 4., 30.}) {
+    const Balls balls = randomFoam(600, 1.2, clip, 0.9, 19);
+    OverlapPairs list;
+    list.update(balls.position, balls.radius);
+    expectNumbered(list);
+  }
+}
+
+TEST(OverlapPairs, BallsThatMayComeToLieInOthersAreNoted) {
+  const Balls balls = randomFoam(600, 1.2, 30, 0.9, 23);
+  OverlapPairs list;
+  list.update(balls.position, balls.radius);
+  PairSet expected, noted;
+  for (int i = 0; i < static_cast<int>(balls.size()); ++i)
+    for (int j = 0; j < static_cast<int>(balls.size()); ++j) {
+      const double own = balls.radius[i], other = balls.radius[j];
+      const double spare = other - own + OverlapPairs::kSkin * (own + other);
+      if (i != j && (balls.position[i] - balls.position[j]).norm() <= spare) expected.insert({i, j});
+    }
+  for (const auto& [inner, outer] : list.nestings()) noted.insert({list.order()[inner], list.order()[outer]});
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(noted, expected);
+}
+
 TEST(OverlapPairs, FindsWhatBruteForceFinds) {
   for (std::uint64_t seed = 0; seed < 4; ++seed)
     for (double clip : {1.0001, 4., 30.}) {
@@ -92,6 +134,17 @@ TEST(OverlapPairs, ACommonDriftKeepsTheList) {
   EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
   balls.position[3].x() += 2 * OverlapPairs::kSkin * balls.radius[3];
   EXPECT_TRUE(list.update(balls.position, balls.radius));
+}
+
+TEST(OverlapPairs, ACopyGoesOnByItself) {
+  const Balls balls = randomFoam(200, 0.6, 5, 0.9, 29), others = randomFoam(300, 0.6, 5, 0.9, 31);
+  OverlapPairs list;
+  list.update(balls.position, balls.radius);
+  OverlapPairs copy = list;
+  list.update(others.position, others.radius);
+  EXPECT_FALSE(copy.update(balls.position, balls.radius));
+  EXPECT_EQ(listedOverlaps(balls, copy), allOverlaps(balls));
+  EXPECT_EQ(listedOverlaps(others, list), allOverlaps(others));
 }
 
 TEST(OverlapPairs, FollowsBirthsAndDeaths) {
