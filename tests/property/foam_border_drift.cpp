@@ -89,9 +89,11 @@ TEST(BorderDrift, AClusterAtPlateausDistancesStays) {
        {Vector3d(1, 1, 1), Vector3d(1, -1, -1), Vector3d(-1, 1, -1), Vector3d(-1, -1, 1)})
     bubbles.add(bubbleAt(kRadius / std::sqrt(8.0) * corner, kRadius, Vector3d::Zero(), BubbleClass::air));
   const StillPool space = emptySpace();
-  run(dryFoam(2), space, 5, 0.01, bubbles);
+  FoamParams params = dryFoam(2);
+  params.solverTolerance = 1e-10;  // the default leaves the four unlike by its own share
+  run(params, space, 5, 0.01, bubbles);
   const BubbleStore before = bubbles;
-  run(dryFoam(2), space, 0.1, 0.01, bubbles);
+  run(params, space, 0.1, 0.01, bubbles);
   for (std::size_t i = 0; i < bubbles.size(); ++i)
     EXPECT_LT((bubbles.position[i] - before.position[i]).norm(), 1e-6 * kRadius);
   const double reach = bubbles.position[0].norm();
