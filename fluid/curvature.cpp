@@ -12,9 +12,8 @@ namespace {
 struct Differences {
   double x, y, z, xx, yy, zz, xy, yz, zx;
 
-  Differences(const DenseField<float>& phi, int i, int j, int k) {
-    const float* p = &phi(i, j, k);
-    const auto si = phi.stride(0), sj = phi.stride(1);
+  /// At `p`, whose neighbours along x and y lie `si` and `sj` before and after it.
+  Differences(const float* p, std::ptrdiff_t si, std::ptrdiff_t sj) {
     const auto cross = [p](std::ptrdiff_t a, std::ptrdiff_t b) {
       return 0.25 * ((double(p[a + b]) - p[a - b]) - (double(p[b - a]) - p[-a - b]));
     };
@@ -33,15 +32,23 @@ struct Differences {
   }
 };
 
+/// The differences as the cell's own side of a thin wall has them.
+Differences differencesAt(const WallSides& sides, const DenseField<float>& phi, int i, int j, int k) {
+  if ((sides.guard(i, j, k) & WallSides::kBeside) == 0) return {&phi(i, j, k), phi.stride(0), phi.stride(1)};
+  const WallSides::Block block = sides.read(phi, {i, j, k});
+  return {&block[WallSides::kCentre], 9, 3};
+}
+
 }  // namespace
 
-void computeCurvature(const GridSpec& grid, const DenseField<float>& phi, DenseField<float>& kappa) {
+void computeCurvature(const GridSpec& grid, const WallSides& sides, const DenseField<float>& phi,
+                      DenseField<float>& kappa) {
   if (kappa.size() != grid.cells) kappa = DenseField<float>(grid.cells);
   const double band = kCurvatureBand * grid.dx;
   forEachCell(grid.cells, [&](int i, int j, int k) {
     const bool near = std::abs(phi(i, j, k)) < band;
     // phi is in metres and its differences per cell: their quotient is in 1/dx.
-    const double perCell = near ? Differences(phi, i, j, k).curvature() : 0;
+    const double perCell = near ? differencesAt(sides, phi, i, j, k).curvature() : 0;
     kappa(i, j, k) = static_cast<float>(std::clamp(perCell, -1.0, 1.0) / grid.dx);
   });
 }

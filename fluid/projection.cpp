@@ -138,7 +138,7 @@ ProjectionReport Projection::project(const DenseField<float>& phi, const SolidBo
   in.boundary = &boundary;
   in.held = pockets;
   in.dt = dt;
-  if (in.params.surfaceTension > 0) computeCurvature(in.grid, phi, in.kappa);
+  if (in.params.surfaceTension > 0) computeCurvature(in.grid, boundary.sides, phi, in.kappa);
   in.findComponents();
   in.assembleMatrix();
   in.findPocketSurfaces();

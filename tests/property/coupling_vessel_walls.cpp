@@ -107,6 +107,25 @@ TEST(VesselWalls, WaterOnBothSidesOfAWallStaysAtItsLevels) {
   }
 }
 
+/// A flat surface has no tension to balance, also where it ends at a wall: its curvature there may not come
+/// from the level outside.
+TEST(VesselWalls, SurfaceTensionLeavesLevelsOnBothSidesOfAWallAtRest) {
+  std::mt19937 random(5);
+  for (const double cells : {1.0, 1.3, 1.7, 2.0}) {
+    const Eigen::Vector3d offset = randomOffset(random);
+    SCOPED_TRACE(testing::Message() << cells << " cells at " << offset.transpose());
+    Scene scene = mugScene(cells, offset);
+    scene.liquid.surfaceTension = 0.0728;
+    fillMug(scene, 0.05);
+    LiquidBodySpec pool;
+    pool.shape.kind = ShapeKind::box;
+    pool.shape.lower = {-1, -1, -1};
+    pool.shape.upper = {1, 0.0413, 1};
+    scene.liquidBodies.push_back(pool);
+    expectRest(scene, 10, 1);
+  }
+}
+
 TEST(VesselWalls, ATiltedMugHoldsItsWater) {
   std::mt19937 random(3);
   for (const double cells : {1.0, 1.3, 1.7, 2.0}) {

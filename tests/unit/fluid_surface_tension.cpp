@@ -22,7 +22,7 @@ TEST(Curvature, OfABallConvergesAtSecondOrder) {
     const GridSpec grid = unitCube(n);
     const auto phi = levelSet(grid, [](const auto& x) { return ball(x, 0.3); });
     DenseField<float> kappa;
-    computeCurvature(grid, phi, kappa);
+    computeCurvature(grid, WallSides(), phi, kappa);
     double error = 0;
     forEachInner(grid.cells, 0, [&](int i, int j, int k) {
       if (std::abs(phi(i, j, k)) > kCurvatureBand * grid.dx) return;
