@@ -97,10 +97,29 @@ SignedDistance liquidInVessel(const SolidSpec& vessel, double depth, const Eigen
   };
 }
 
+/// A box that ends at a closed side of the domain, continued behind it: the wall is no surface of the liquid,
+/// and with surface tension what looks like its edge there would be pulled round.
+ShapeSpec continuedBehindWalls(const Scene& scene, ShapeSpec shape) {
+  if (shape.kind != ShapeKind::box) return shape;
+  constexpr double kAtWall = 1e-6;  // of a cell
+  const Eigen::Vector3d low = scene.domain.lower, high = gridOf(scene).upper();
+  const double beyond = scene.domain.size.norm();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double near = kAtWall * scene.dx();
+    if (scene.domain.closed[2 * axis] && shape.lower[axis] <= low[axis] + near)
+      shape.lower[axis] = std::min(shape.lower[axis], low[axis] - beyond);
+    if (scene.domain.closed[2 * axis + 1] && shape.upper[axis] >= high[axis] - near)
+      shape.upper[axis] = std::max(shape.upper[axis], high[axis] + beyond);
+  }
+  return shape;
+}
+
 SignedDistance distanceTo(const Scene& scene, const LiquidBodySpec& body) {
   if (const SolidSpec* vessel = vesselOf(scene, body))
     return liquidInVessel(*vessel, body.depth, scene.liquid.gravity);
-  return [shape = body.shape](const Eigen::Vector3d& x) { return signedDistance(shape, x); };
+  return [shape = continuedBehindWalls(scene, body.shape)](const Eigen::Vector3d& x) {
+    return signedDistance(shape, x);
+  };
 }
 
 }  // namespace

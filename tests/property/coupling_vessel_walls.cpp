@@ -117,10 +117,10 @@ TEST(VesselWalls, SurfaceTensionLeavesLevelsOnBothSidesOfAWallAtRest) {
     Scene scene = mugScene(cells, offset);
     scene.liquid.surfaceTension = 0.0728;
     fillMug(scene, 0.05);
-    LiquidBodySpec pool;
+    LiquidBodySpec pool;  // from wall to wall of the domain
     pool.shape.kind = ShapeKind::box;
-    pool.shape.lower = {-1, -1, -1};
-    pool.shape.upper = {1, 0.0413, 1};
+    pool.shape.lower = {0, 0, 0};
+    pool.shape.upper = {kEdge, 0.0413, kEdge};
     scene.liquidBodies.push_back(pool);
     expectRest(scene, 10, 1);
   }
