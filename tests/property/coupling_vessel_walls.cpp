@@ -47,6 +47,14 @@ void fillMug(Scene& scene, double depth) {
   scene.liquidBodies.push_back(water);
 }
 
+/// Water from `lower` to `upper`, less the mug's room.
+void addPool(Scene& scene, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
+  LiquidBodySpec pool;
+  pool.shape.kind = ShapeKind::box;
+  pool.shape.lower = lower, pool.shape.upper = upper;
+  scene.liquidBodies.push_back(pool);
+}
+
 struct Outcome {
   Shares start, end;
   double fastest = 0;
@@ -98,11 +106,7 @@ TEST(VesselWalls, WaterOnBothSidesOfAWallStaysAtItsLevels) {
     SCOPED_TRACE(testing::Message() << cells << " cells at " << offset.transpose());
     Scene scene = mugScene(cells, offset);
     fillMug(scene, 0.05);
-    LiquidBodySpec pool;  // around the mug: a box less the mug's room
-    pool.shape.kind = ShapeKind::box;
-    pool.shape.lower = {-1, -1, -1};
-    pool.shape.upper = {1, 0.0413, 1};
-    scene.liquidBodies.push_back(pool);
+    addPool(scene, {-1, -1, -1}, {1, 0.0413, 1});
     expectRest(scene, 10, 1);
   }
 }
@@ -117,11 +121,7 @@ TEST(VesselWalls, SurfaceTensionLeavesLevelsOnBothSidesOfAWallAtRest) {
     Scene scene = mugScene(cells, offset);
     scene.liquid.surfaceTension = 0.0728;
     fillMug(scene, 0.05);
-    LiquidBodySpec pool;  // from wall to wall of the domain
-    pool.shape.kind = ShapeKind::box;
-    pool.shape.lower = {0, 0, 0};
-    pool.shape.upper = {kEdge, 0.0413, kEdge};
-    scene.liquidBodies.push_back(pool);
+    addPool(scene, {0, 0, 0}, {kEdge, 0.0413, kEdge});  // from wall to wall of the domain
     expectRest(scene, 10, 1);
   }
 }
