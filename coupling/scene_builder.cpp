@@ -101,11 +101,10 @@ SignedDistance liquidInVessel(const SolidSpec& vessel, double depth, const Eigen
 /// and with surface tension what looks like its edge there would be pulled round.
 ShapeSpec continuedBehindWalls(const Scene& scene, ShapeSpec shape) {
   if (shape.kind != ShapeKind::box) return shape;
-  constexpr double kAtWall = 1e-6;  // of a cell
+  const double near = 1e-6 * scene.dx();  // round-off of what is written
   const Eigen::Vector3d low = scene.domain.lower, high = gridOf(scene).upper();
   const double beyond = scene.domain.size.norm();
   for (int axis = 0; axis < 3; ++axis) {
-    const double near = kAtWall * scene.dx();
     if (scene.domain.closed[2 * axis] && shape.lower[axis] <= low[axis] + near)
       shape.lower[axis] = std::min(shape.lower[axis], low[axis] - beyond);
     if (scene.domain.closed[2 * axis + 1] && shape.upper[axis] >= high[axis] - near)

@@ -13,7 +13,6 @@ constexpr int kPackings = 3, kDiscs = 1000;
 constexpr double kTop = 0.94;      ///< gas share at the start, about 0.1 beyond jamming
 constexpr double kNearest = 2e-4;  ///< beyond jamming; there 1000 discs have 20 contacts too many
 constexpr double kBetween = 0.75;  ///< exponents below it are nearer to a square root than to a line
-constexpr double kAtRest = 1e-5, kAreaOff = 1e-10;  ///< what SoftPacking::relax() promises
 
 /// Contacts of packings of one kind against the gas share.
 struct ContactLaw {
@@ -50,7 +49,7 @@ std::vector<ResultRow> rowsOf(const char* kind, const ContactLaw& law, const cha
   growth.note = law.name();
   if (!law.settled) rest.note = "not every packing came to rest";
   return {reportOnly(density, law.density, "-"), reportOnly(growth, law.excess.exponent(), "-"),
-          aimAtMost(rest, law.unrest, kAtRest, "-")};
+          aimAtMost(rest, law.unrest, SoftPacking::kAtRest, "-")};
 }
 
 /// G13: whether contacts grow as in soft discs or as in foams once cells hold their areas. Both kinds start
@@ -75,7 +74,7 @@ std::vector<ResultRow> contactGrowth(const StudyContext&) {
   for (const ResultRow& row : rowsOf(kCells, cells, "1, a line, in foams")) rows.push_back(row);
   ResultRow area = contactRow(kCells, "area of a cell off what it holds, worst of all", "0", "exact"),
             swell = contactRow(kCells, "growth of the smaller discs' radii at a gas share of 0.94", "", "");
-  rows.push_back(aimAtMost(area, cells.worstArea, kAreaOff, "-"));
+  rows.push_back(aimAtMost(area, cells.worstArea, SoftPacking::kAreaOff, "-"));
   rows.push_back(reportOnly(swell, 100 * swollen, "%"));
   return rows;
 }

@@ -22,12 +22,9 @@ constexpr double kRoam = 0.3;
 constexpr double kFirstStep = 0.05, kLongestStep = 0.3, kGrow = 1.1, kShrink = 0.5, kMix = 0.1,
                  kMixShrink = 0.99;
 constexpr int kPatience = 5, kMaxSteps = 100000;
-constexpr double kAtRest = 1e-5;  ///< largest net force over the mean push of the contacts
 /// Mean push below which balls do not touch: a fraction of 1e-6 from where they begin to.
 constexpr double kNothing = 1e-6;
 
-/// Radii are then right to half of it, and so are forces: below kAtRest of the pushes met 1e-4 from jamming.
-constexpr double kAreaOff = 1e-10;
 constexpr int kMaxRounds = 50;  ///< of Newton's method, which takes two or three from a step to the next
 
 }  // namespace

@@ -26,6 +26,11 @@ struct SoftPackingParams {
 class SoftPacking {
  public:
   static constexpr double kStiffness = 1;
+  /// At rest: largest net force over the mean push of the contacts.
+  static constexpr double kAtRest = 1e-5;
+  /// Relative error of the areas that cells hold. Radii are then right to half of it, and so are forces:
+  /// below kAtRest of the pushes met 1e-4 from jamming.
+  static constexpr double kAreaOff = 1e-10;
 
   struct Contact {
     std::int32_t i, j;
@@ -50,8 +55,8 @@ class SoftPacking {
   double fraction() const;
   /// Makes the box larger or smaller, the places with it.
   void setFraction(double fraction);
-  /// Lets the balls come to rest by the steps of FIRE [Bitzek 2006]: until no net force is above 1e-5 of
-  /// the contacts' own, and cells hold their areas to 1e-10, or no ball touches another. Returns whether they
+  /// Lets the balls come to rest by the steps of FIRE [Bitzek 2006]: until no net force is above
+  /// kAtRest, and cells hold their areas to kAreaOff, or no ball touches another. Returns whether they
   /// did.
   bool relax();
 

@@ -47,14 +47,6 @@ void fillMug(Scene& scene, double depth) {
   scene.liquidBodies.push_back(water);
 }
 
-/// Water from `lower` to `upper`, less the mug's room.
-void addPool(Scene& scene, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) {
-  LiquidBodySpec pool;
-  pool.shape.kind = ShapeKind::box;
-  pool.shape.lower = lower, pool.shape.upper = upper;
-  scene.liquidBodies.push_back(pool);
-}
-
 struct Outcome {
   Shares start, end;
   double fastest = 0;
@@ -99,31 +91,32 @@ TEST(VesselWalls, WaterInADryMugIsAtRestAtAnySubCellPosition) {
   }
 }
 
-TEST(VesselWalls, WaterOnBothSidesOfAWallStaysAtItsLevels) {
-  std::mt19937 random(2);
+/// Water in a mug and around it, there from `lower` to `upper`, at levels of their own.
+void expectRestOnBothSides(unsigned seed, double surfaceTension, const Eigen::Vector3d& lower,
+                           const Eigen::Vector3d& upper) {
+  std::mt19937 random(seed);
   for (const double cells : {1.0, 1.3, 1.7, 2.0}) {
     const Eigen::Vector3d offset = randomOffset(random);
     SCOPED_TRACE(testing::Message() << cells << " cells at " << offset.transpose());
     Scene scene = mugScene(cells, offset);
+    scene.liquid.surfaceTension = surfaceTension;
     fillMug(scene, 0.05);
-    addPool(scene, {-1, -1, -1}, {1, 0.0413, 1});
+    LiquidBodySpec pool;  // a box less the mug's room
+    pool.shape.kind = ShapeKind::box;
+    pool.shape.lower = lower, pool.shape.upper = upper;
+    scene.liquidBodies.push_back(pool);
     expectRest(scene, 10, 1);
   }
 }
 
+TEST(VesselWalls, WaterOnBothSidesOfAWallStaysAtItsLevels) {
+  expectRestOnBothSides(2, 0, {-1, -1, -1}, {1, 0.0413, 1});
+}
+
 /// A flat surface has no tension to balance, also where it ends at a wall: its curvature there may not come
-/// from the level outside.
+/// from the level outside, nor from a box that ends where the domain does.
 TEST(VesselWalls, SurfaceTensionLeavesLevelsOnBothSidesOfAWallAtRest) {
-  std::mt19937 random(5);
-  for (const double cells : {1.0, 1.3, 1.7, 2.0}) {
-    const Eigen::Vector3d offset = randomOffset(random);
-    SCOPED_TRACE(testing::Message() << cells << " cells at " << offset.transpose());
-    Scene scene = mugScene(cells, offset);
-    scene.liquid.surfaceTension = 0.0728;
-    fillMug(scene, 0.05);
-    addPool(scene, {0, 0, 0}, {kEdge, 0.0413, kEdge});  // from wall to wall of the domain
-    expectRest(scene, 10, 1);
-  }
+  expectRestOnBothSides(5, 0.0728, {0, 0, 0}, {kEdge, 0.0413, kEdge});
 }
 
 TEST(VesselWalls, ATiltedMugHoldsItsWater) {
