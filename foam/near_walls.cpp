@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "foam/errors.h"
+#include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
@@ -70,12 +71,13 @@ void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::ve
 
 void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
                    const std::vector<double>& reach, std::vector<NearWalls>& walls) {
-  walls.assign(bubbles.size(), {});
-  for (std::size_t i = 0; i < walls.size(); ++i) {
+  walls.resize(bubbles.size());
+  forEachIndex(walls.size(), [&](std::size_t i) {
+    walls[i].count = 0;
     const Eigen::Vector3d away = around.gradPsi.col(i);
-    if (away.norm() == 0) continue;
+    if (away.norm() == 0) return;
     walls[i].wall[walls[i].count++] = {around.psi[i], away, around.solidVelocity.col(i), around.solid[i]};
-  }
+  });
   for (const Look look : {Look::near, Look::far})
     for (const int count : {1, 2}) feel(liquid, bubbles, reach, count, look, walls);
 }

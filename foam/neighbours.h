@@ -18,7 +18,8 @@ struct Neighbours {
   void build(std::size_t bubbles, const std::vector<OverlapPair>& pairs);
 
  private:
-  std::vector<std::int32_t> next_;  ///< free place of each row, while they fill
+  std::vector<std::int32_t> earlier_;  ///< how many neighbours of each bubble come before it
+  std::vector<std::int32_t> next_;     ///< place of the next of these, while rows fill
 };
 
 }  // namespace spume::foam
