@@ -36,10 +36,6 @@ class BlockPcg {
   struct Norms {
     double plain, slope;  ///< |r|, r . M^-1 r
   };
-  /// Sums of a sweep over the rows of a group: up to three, as the sweep needs them. A cache line each.
-  struct alignas(64) GroupSums {
-    double of[3] = {};
-  };
 
   int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
               double norm, double goal, int maxIterations);
@@ -48,6 +44,7 @@ class BlockPcg {
                     double momentum);
   Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor);
   Quad coupledBack(const SweptSystem& a, std::size_t k) const;
+  Quad coupledWithin(const SweptSystem& a, std::size_t k) const;
   Quad coupledForth(const SweptSystem& a, std::size_t k) const;
   void advance(std::size_t k, float length);
   double total(int which) const;
@@ -60,7 +57,7 @@ class BlockPcg {
   std::vector<Eigen::Vector4f> image_;  ///< G^-T q with q = C^-1 (A - C) p
   /// What couplings act on, by SweptSystem::other: p, a 0, and -q.
   std::vector<Eigen::Vector4f> known_;
-  std::vector<GroupSums> partial_;  ///< by group
+  std::vector<GroupSums> sums_;  ///< by group
 };
 
 }  // namespace spume::foam

@@ -31,11 +31,32 @@ double lengthOf(const Vectors3& v) {
 
 }  // namespace
 
-double ImplicitSolve::residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x) {
+double ImplicitSolve::begin(const BlockSystem& a, const Vectors3& b, const Vectors3& x) {
+  isLaidOut_ = false;
+  findResidual(a, b, x);
+  return norm_;
+}
+
+/// A row's residual depends on its neighbours' x.
+double ImplicitSolve::follow(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
+                             const std::vector<std::int32_t>& rows) {
+  isStale_.assign(a.size(), 0);
+  for (const std::int32_t i : rows) {
+    isStale_[i] = 1;
+    for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) isStale_[a.other[e]] = 1;
+  }
+  forEachIndex(a.size(), [&](std::size_t i) {
+    if (isStale_[i]) residual_[i] = b[i] - a.row(i, x);
+  });
+  norm_ = lengthOf(residual_);
+  if (isLaidOut_) cholesky_.refresh(swept_, swept_.refresh(a, rows));
+  return norm_;
+}
+
+void ImplicitSolve::findResidual(const BlockSystem& a, const Vectors3& b, const Vectors3& x) {
   residual_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
-  return std::sqrt(reduceIndices(
-      a.size(), 0.0, [&](std::size_t i) { return residual_[i].squaredNorm(); }, std::plus<>()));
+  norm_ = lengthOf(residual_);
 }
 
 double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {
@@ -47,63 +68,50 @@ double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {
 
 SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
                                  Vectors3& x) {
-  couplingsKnown_ = false;
-  return solveAgain(a, b, goal, maxIterations, x);
-}
-
-SolveReport ImplicitSolve::solveAgain(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                                      Vectors3& x) {
-  const double first = residual(a, b, x);
+  const double first = norm_;
   SolveReport report;
   report.converged = first <= goal;
   if (report.converged) return report;
   const bool iterative = solver_ != LinearSolver::cholmod;
-  double norm = first;
-  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, norm, x);
+  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, x);
   const auto reached = [&] {
-    return norm <= goal || norm <= std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b));
+    return norm_ <= goal || norm_ <= std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b));
   };
-  if (!reached()) {
-    report.fellBack = solveDirectly(a, b, goal, x) && iterative;
-    norm = residual(a, b, x);
-  }
-  report.residual = norm / first;
+  if (!reached()) report.fellBack = solveDirectly(a, b, goal, x) && iterative;
+  report.residual = norm_ / first;
   report.converged = reached();
   return report;
 }
 
-/// Starts from the residual in residual_, of length `norm`, and leaves that it ends with there.
 int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                           double& norm, Vectors3& x) {
-  if (std::exchange(couplingsKnown_, true)) {
-    swept_.refresh(a), cholesky_.refresh(swept_);
-  } else {
+                           Vectors3& x) {
+  if (!std::exchange(isLaidOut_, true)) {
     swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky);
     Crew::lead(swept_.groups(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
   }
   int iterations = 0;
-  for (int pass = 0; pass < kRefinements && norm > goal && iterations < maxIterations; ++pass) {
-    const double aim = std::max(kAim * goal, kSinglePrecision * norm);
-    iterations += pcg_.improve(swept_, cholesky_, residual_, norm, aim, maxIterations - iterations, x);
-    const double last = std::exchange(norm, residual(a, b, x));
-    if (norm > kStalled * last) break;
+  for (int pass = 0; pass < kRefinements && norm_ > goal && iterations < maxIterations; ++pass) {
+    const double last = norm_, aim = std::max(kAim * goal, kSinglePrecision * last);
+    iterations += pcg_.improve(swept_, cholesky_, residual_, last, aim, maxIterations - iterations, x);
+    findResidual(a, b, x);
+    if (norm_ > kStalled * last) break;
   }
   return iterations;
 }
 
+/// From the residual as it is.
 bool ImplicitSolve::solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x) {
   if (!direct_.factor(a)) return false;
-  double norm = residual(a, b, x);
-  for (int pass = 0; pass < kRefinements && norm > goal; ++pass) {
+  for (int pass = 0; pass < kRefinements && norm_ > goal; ++pass) {
     direct_.improve(residual_, x);
-    const double last = std::exchange(norm, residual(a, b, x));
-    if (norm > kStalled * last) break;
+    const double last = norm_;
+    findResidual(a, b, x);
+    if (norm_ > kStalled * last) break;
   }
   return true;
 }
 
-void ImplicitSolve::balance(const BlockSystem& a, const Vectors3& b, Vectors3& x) {
-  residual(a, b, x);
+void ImplicitSolve::balance(const BlockSystem& a, Vectors3& x) const {
   const auto add = [](const auto& p, const auto& q) { return (p + q).eval(); };
   const Eigen::Vector3d left = reduceIndices(
       x.size(), Eigen::Vector3d::Zero().eval(), [&](std::size_t i) { return residual_[i]; }, add);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "foam/block_pcg.h"
 #include "foam/block_system.h"
 #include "foam/direct_solve.h"
@@ -24,35 +27,39 @@ class ImplicitSolve {
   /// What rounding alone leaves of the residual: a pinned bubble's block is a million times stiffer than the
   /// rest.
   static double roundOff(const BlockSystem& a, const Vectors3& x);
-  /// |b - A x| [kg m/s].
-  double residual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
-
-  /// Solves A x = b from the given x until |b - A x| <= goal [kg m/s]. An iteration that does not get there
-  /// within `maxIterations` is finished by the direct solver, where its factor fits into memory. A result
-  /// that did not converge is still the best one found.
+  /// Takes on the system A x = b with a first guess. Returns |b - A x| [kg m/s].
+  double begin(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
+  /// The same when only own blocks, b and x of `rows` have changed since the system was last looked at: all
+  /// that does not depend on these is kept.
+  double follow(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
+                const std::vector<std::int32_t>& rows);
+  /// Solves until |b - A x| <= goal [kg m/s], from the x and the system that begin() or, after that, solve()
+  /// and follow() have last seen. An iteration that does not get there within `maxIterations` is finished by
+  /// the direct solver, where its factor fits into memory. A result that did not converge is still the best
+  /// one found.
   SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
-  /// The same when only `a.own` has changed since the last call of either: what depends on couplings is kept.
-  SolveReport solveAgain(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                         Vectors3& x);
   /// Corrects x by a rigid motion of everything, after which the residuals add up to nothing but round-off:
-  /// couplings then leave total momentum as it is. Not for between solves: what it takes from all it adds to
-  /// the few rows that resist most, and they would have to be solved again.
-  void balance(const BlockSystem& a, const Vectors3& b, Vectors3& x);
-  /// b - A x of each row as the last of these left it [kg m/s].
+  /// couplings then leave total momentum as it is. Ends work on the system, of which x is what has last been
+  /// seen: what it takes from all it adds to the few rows that resist most, and they would have to be solved
+  /// again.
+  void balance(const BlockSystem& a, Vectors3& x) const;
+  /// b - A x of each row as begin(), follow() or solve() left it [kg m/s].
   const Vectors3& left() const { return residual_; }
 
  private:
-  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, double& norm,
-              Vectors3& x);
+  void findResidual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
+  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
 
   LinearSolver solver_;
-  bool couplingsKnown_ = false;  ///< swept_ holds those of the system
+  bool isLaidOut_ = false;  ///< swept_ and cholesky_ are of the system as it is
   SweptSystem swept_;
   IncompleteCholesky cholesky_;
   BlockPcg pcg_;
   DirectSolve direct_;
   Vectors3 residual_;
+  double norm_ = 0;                    ///< of the residual [kg m/s]
+  std::vector<std::uint8_t> isStale_;  ///< rows whose residual follow() has to find again
 };
 
 }  // namespace spume::foam

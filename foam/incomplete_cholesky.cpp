@@ -24,28 +24,24 @@ Eigen::Matrix3d inverseOf(const Eigen::Matrix3d& l) {
   return g;
 }
 
-/// G^T G, the D^-1 that sweeps apply.
-Eigen::Matrix3d squareOf(const TriangularBlock& scale) {
-  const Eigen::Matrix3d g = scale.matrix();
-  return g.transpose() * g;
-}
-
 }  // namespace
 
 void IncompleteCholesky::factor(Crew& crew, const SweptSystem& a) {
   scale.resize(a.size()), excess.resize(a.size()), pivot_.resize(a.size()), diagonal_.resize(a.size());
+  inverse_.resize(a.size());
   const auto behind = static_cast<std::int32_t>(a.size()) + 1;
   sweepForth(crew, a, [&](std::size_t, std::size_t k) {
     Eigen::Matrix3d d = a.diagonal[k];
     for (std::int32_t e = a.row[k].behind; e < a.row[k].beyond; ++e)
-      d -= sandwich(a.known.block[e], squareOf(scale[a.known.other[e] - behind]));
+      d -= sandwich(a.known.block[e], inverse_[a.known.other[e] - behind]);
     setPivot(a, k, d);
   });
 }
 
-void IncompleteCholesky::refresh(const SweptSystem& a) {
-  forEachIndex(a.size(), [&](std::size_t k) {
-    if (a.changed[k]) setPivot(a, k, pivot_[k] + a.diagonal[k] - diagonal_[k]);
+void IncompleteCholesky::refresh(const SweptSystem& a, const std::vector<std::int32_t>& rows) {
+  forEachIndex(rows.size(), [&](std::size_t r) {
+    const std::int32_t k = rows[r];
+    setPivot(a, k, pivot_[k] + a.diagonal[k] - diagonal_[k]);
   });
 }
 
@@ -57,6 +53,7 @@ void IncompleteCholesky::setPivot(const SweptSystem& a, std::size_t k, const Eig
   if (cholesky.info() != Eigen::Success) cholesky.compute(pivot_[k] = a.diagonal[k]);
   scale[k] = TriangularBlock(inverseOf(cholesky.matrixL()));
   const Eigen::Matrix3d g = scale[k].matrix();
+  inverse_[k].noalias() = g.transpose() * g;
   excess[k] = SymmetricBlock(g * a.diagonal[k] * g.transpose() - 2 * Eigen::Matrix3d::Identity());
 }
 

@@ -21,14 +21,15 @@ struct IncompleteCholesky {
 
   /// The crew's tasks are the groups of `a`.
   void factor(Crew& crew, const SweptSystem& a);
-  /// Takes on the diagonals that SweptSystem::refresh has changed, each by itself: D grows by what A has
-  /// grown. What that does to later rows is left out; D stays positive definite, as above.
-  void refresh(const SweptSystem& a);
+  /// Takes on the diagonals of `rows` that SweptSystem::refresh has changed, each by itself: D grows by what
+  /// A has grown. What that does to later rows is left out; D stays positive definite, as above.
+  void refresh(const SweptSystem& a, const std::vector<std::int32_t>& rows);
 
  private:
   void setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d);
 
   std::vector<Eigen::Matrix3d> pivot_, diagonal_;  ///< D and A_ii as last set [kg]
+  std::vector<Eigen::Matrix3d> inverse_;           ///< D^-1 as sweeps apply it, G^T G [1/kg]
 };
 
 }  // namespace spume::foam

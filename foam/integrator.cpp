@@ -102,12 +102,14 @@ std::vector<double> Integrator::reach(double dt) const {
 SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& topology,
                                const Neighbours& neighbours, const std::vector<NearWalls>& walls, double dt) {
   const std::size_t n = lone_.size();
-  computePairForces(params_, bubbles, topology, mass_, pairForce_);
+  pairShare_.resize(topology.overlaps.size());
+  forEachIndex(pairShare_.size(),
+               [&](std::size_t p) { pairShare_[p] = shareOf(bubbles, topology, topology.overlaps[p], dt); });
   system_.own.resize(n), impulse_.resize(n), impulseScale_.resize(n), velocity_.resize(n);
   change_.resize(n);
-  system_.start = neighbours.start, system_.other = neighbours.other;
-  system_.block.resize(neighbours.other.size());
-  forEachIndex(n, [&](std::size_t i) { assembleRow(i, topology, neighbours, dt); });
+  system_.start = neighbours.start;
+  system_.other.resize(neighbours.other.size()), system_.block.resize(neighbours.other.size());
+  forEachIndex(n, [&](std::size_t i) { assembleRow(i, neighbours); });
   // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
   forEachIndex(n, [&](std::size_t i) { change_[i] = lone_[i].velocity - motion_[i].velocity; });
   contacts_.begin(walls, motion_, mass_, dt, change_, system_, impulse_);
@@ -118,43 +120,51 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
 }
 
 SolveReport Integrator::solveWithContacts(double dt) {
-  const double first = solver_.residual(system_, impulse_, change_);
+  const double first = solver_.begin(system_, impulse_, change_);
   const double goal = std::max(params_.solverTolerance * first, smallestGoal());
   SolveReport report;
   double aim = std::max(goal, kFirstAim * first);
   for (int pass = 0; pass < kWallPasses; ++pass) {
     if (pass == kWallPasses - 1) aim = goal;
     const int left = params_.solverIterations - report.iterations;
-    const SolveReport done = pass == 0 ? solver_.solve(system_, impulse_, aim, left, change_)
-                                       : solver_.solveAgain(system_, impulse_, aim, left, change_);
+    const SolveReport done = solver_.solve(system_, impulse_, aim, left, change_);
     report = {report.iterations + done.iterations, done.residual, done.converged,
               report.fellBack || done.fellBack};
-    const bool settled = !contacts_.update(motion_, solver_.left(), dt, change_, system_, impulse_);
+    const auto& changed = contacts_.update(motion_, solver_.left(), dt, change_, system_, impulse_);
+    solver_.follow(system_, impulse_, change_, changed);
+    const bool settled = changed.empty();
     if (!done.converged || (settled && aim <= goal)) break;
     aim = settled ? goal : std::max(goal, kAimStep * aim);
   }
-  if (first > goal) solver_.balance(system_, impulse_, change_);
+  if (first > goal) solver_.balance(system_, change_);
   return report;
 }
 
-void Integrator::assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours,
-                             double dt) {
+Integrator::PairShare Integrator::shareOf(const BubbleStore& bubbles, const FoamTopology& topology,
+                                          const OverlapPair& overlap, double dt) const {
+  const PairForce pair = pairForce(params_, bubbles, topology, mass_, overlap);
+  // dt^2 K + dt C with K = along n n^T + across (I - n n^T): the turning part is split off so that both
+  // terms stay positive; along >= across always.
+  const double along = dt * dt * (pair.along - pair.across);
+  const CouplingBlock block = {std::sqrt(along) * pair.direction, dt * (dt * pair.across + pair.damping)};
+  const Eigen::Vector3d approach = motion_[overlap.i].velocity - motion_[overlap.j].velocity;
+  return {block, dt * pair.tension * pair.direction - block.times(approach),
+          dt * (std::abs(pair.tension) + pair.along * overlap.distance)};
+}
+
+void Integrator::assembleRow(std::size_t i, const Neighbours& neighbours) {
   const LinearMotion& motion = motion_[i];
-  system_.own[i] = motion.matrix;
-  impulse_[i].setZero();
-  impulseScale_[i] = lone_[i].mass * motion.velocity.norm();
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  double size = lone_[i].mass * motion.velocity.norm();
   for (std::int32_t e = neighbours.start[i]; e < neighbours.start[i + 1]; ++e) {
-    const PairForce& pair = pairForce_[neighbours.pair[e]];
-    const OverlapPair& overlap = topology.overlaps[neighbours.pair[e]];
-    const bool first = overlap.i == static_cast<std::int32_t>(i);
-    // dt^2 K + dt C with K = along n n^T + across (I - n n^T): the turning part is split off so that both
-    // terms stay positive; along >= across always.
-    const double along = dt * dt * (pair.along - pair.across);
-    system_.block[e] = {std::sqrt(along) * pair.direction, dt * (dt * pair.across + pair.damping)};
-    const Eigen::Vector3d approach = motion.velocity - motion_[neighbours.other[e]].velocity;
-    impulse_[i] += (first ? dt : -dt) * pair.tension * pair.direction - system_.block[e].times(approach);
-    impulseScale_[i] += dt * (std::abs(pair.tension) + pair.along * overlap.distance);
+    const PairShare& share = pairShare_[neighbours.pair[e]];
+    const std::int32_t other = neighbours.other[e];
+    const bool first = static_cast<std::int32_t>(i) < other;
+    system_.other[e] = other, system_.block[e] = share.block;
+    impulse += first ? share.impulse : Eigen::Vector3d(-share.impulse);
+    size += share.size;
   }
+  system_.own[i] = motion.matrix, impulse_[i] = impulse, impulseScale_[i] = size;
 }
 
 double Integrator::smallestGoal() const {

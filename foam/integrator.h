@@ -53,7 +53,16 @@ class Integrator {
   double kineticEnergy() const;  ///< with the new velocities [J]
 
  private:
-  void assembleRow(std::size_t i, const FoamTopology& topology, const Neighbours& neighbours, double dt);
+  /// What a pair adds to the system, in one cache line.
+  struct alignas(64) PairShare {
+    CouplingBlock block;
+    Eigen::Vector3d impulse;  ///< of the first bubble; the second has the opposite [kg m/s]
+    double size;              ///< of what adds up to it [kg m/s]
+  };
+
+  PairShare shareOf(const BubbleStore& bubbles, const FoamTopology& topology, const OverlapPair& overlap,
+                    double dt) const;
+  void assembleRow(std::size_t i, const Neighbours& neighbours);
   /// Solves, and again while wall contacts change.
   SolveReport solveWithContacts(double dt);
   /// Residual not worth improving [kg m/s]: round-off, or kRestSpeed of every bubble.
@@ -64,7 +73,7 @@ class Integrator {
   std::vector<LoneBubble> lone_;
   std::vector<double> mass_, immersed_;
   std::vector<LinearMotion> motion_;
-  std::vector<PairForce> pairForce_;
+  std::vector<PairShare> pairShare_;
   BlockSystem system_;
   Vectors3 impulse_, change_, velocity_;
   std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]

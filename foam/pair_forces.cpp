@@ -8,7 +8,6 @@
 #include "foam/forces/contact_damping.h"
 #include "foam/forces/strong_spring.h"
 #include "foam/forces/volume_response.h"
-#include "foam/parallel.h"
 #include "foam/volume_correction.h"
 
 namespace spume::foam {
@@ -31,6 +30,8 @@ Eigen::Vector3d pairDirection(const FoamParams& params, const BubbleStore& bubbl
   return (bubbles.position[pair.j] - bubbles.position[pair.i]) / pair.distance;
 }
 
+}  // namespace
+
 PairForce pairForce(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology,
                     const std::vector<double>& mass, const OverlapPair& pair) {
   const double ri = bubbles.radius[pair.i], rj = bubbles.radius[pair.j];
@@ -50,16 +51,6 @@ PairForce pairForce(const FoamParams& params, const BubbleStore& bubbles, const 
   if (pair.film >= 0)
     force.damping = contactDamping(params.contactDamping, stiffness, mass[pair.i], mass[pair.j]);
   return force;
-}
-
-}  // namespace
-
-void computePairForces(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology,
-                       const std::vector<double>& mass, std::vector<PairForce>& forces) {
-  forces.resize(topology.overlaps.size());
-  forEachIndex(forces.size(), [&](std::size_t p) {
-    forces[p] = pairForce(params, bubbles, topology, mass, topology.overlaps[p]);
-  });
 }
 
 }  // namespace spume::foam

@@ -18,9 +18,9 @@ struct PairForce {
   double damping = 0;         ///< c_lap, against any relative velocity [kg/s], >= 0
 };
 
-/// Strong spring and contact damping of every overlap of `topology`, in its order. `mass` [kg] per bubble.
-/// Coincident centres part in a direction drawn from (seed, ids).
-void computePairForces(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology,
-                       const std::vector<double>& mass, std::vector<PairForce>& forces);
+/// Strong spring and contact damping of overlap `pair` of `topology`. `mass` [kg] per bubble. Coincident
+/// centres part in a direction drawn from (seed, ids).
+PairForce pairForce(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology,
+                    const std::vector<double>& mass, const OverlapPair& pair);
 
 }  // namespace spume::foam

@@ -11,6 +11,9 @@ namespace spume::foam {
 /// the widest. Vectors of a sweep have 0 as their fourth.
 using Quad [[gnu::vector_size(4 * sizeof(float))]] = float;
 
+/// The same in double precision.
+using DoubleQuad [[gnu::vector_size(4 * sizeof(double))]] = double;
+
 /// As many quads side by side as one register of the instruction set the library is built for holds.
 #if defined(__AVX512F__)
 inline constexpr std::size_t kQuads = 4;
@@ -32,6 +35,8 @@ inline Eigen::Vector4f toVector(const Quad& quad) {
   std::memcpy(to.data(), &quad, sizeof quad);
   return to;
 }
+
+inline DoubleQuad widened(const Quad& x) { return __builtin_convertvector(x, DoubleQuad); }
 
 /// kQuads quads that lie one after the other.
 inline QuadLanes loadQuads(const Eigen::Vector4f* from) {

@@ -10,7 +10,7 @@ namespace spume::foam {
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
   orderRows(cutBlocks(a));
-  row.resize(n + 1), diagonal.resize(n), own_.resize(n), changed.assign(n, 1);
+  row.resize(n + 1), diagonal.resize(n);
   forEachIndex(n, [&](std::size_t k) { row[k] = countRow(a, k, sweeps); });
   std::int32_t inAhead = 0, inKnown = 0;
   row[n] = {};
@@ -96,17 +96,17 @@ void SweptSystem::copyRow(const BlockSystem& a, std::size_t k, bool sweeps) {
 }
 
 void SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) {
-  Eigen::Matrix3d sum = own_[k] = a.own[source[k]];
+  Eigen::Matrix3d sum = a.own[source[k]];
   for (std::int32_t e = row[k].ahead; e < row[k + 1].ahead; ++e) sum += matrixOf(ahead.block[e]);
   for (std::int32_t e = row[k].behind; e < row[k + 1].behind; ++e) sum += matrixOf(known.block[e]);
   diagonal[k] = sum;
 }
 
-void SweptSystem::refresh(const BlockSystem& a) {
-  forEachIndex(size(), [&](std::size_t k) {
-    changed[k] = own_[k] != a.own[source[k]];
-    if (changed[k]) sumDiagonal(a, k);
-  });
+const std::vector<std::int32_t>& SweptSystem::refresh(const BlockSystem& a,
+                                                      const std::vector<std::int32_t>& rows) {
+  refreshed_.resize(rows.size());
+  forEachIndex(rows.size(), [&](std::size_t r) { sumDiagonal(a, refreshed_[r] = place_[rows[r]]); });
+  return refreshed_;
 }
 
 }  // namespace spume::foam

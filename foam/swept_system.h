@@ -8,6 +8,7 @@
 #include "foam/block_system.h"
 #include "foam/crew.h"
 #include "foam/flush_tiny.h"
+#include "foam/quad_lanes.h"
 #include "foam/symmetric_block.h"
 
 namespace spume::foam {
@@ -63,7 +64,6 @@ struct SweptSystem {
   /// own where it is in another block, n + 1 more where it is behind in this one.
   Couplings known;
   std::vector<Eigen::Matrix3d> diagonal;  ///< own block and all couplings [kg]
-  std::vector<std::uint8_t> changed;      ///< diagonals the last refresh() has changed
   std::vector<std::int32_t> source;       ///< each row's number in the BlockSystem
 
   std::size_t size() const { return source.size(); }
@@ -73,8 +73,8 @@ struct SweptSystem {
 
   /// Copies `a`. With `sweeps` false all couplings count as beyond their block: nothing to sweep along.
   void copy(const BlockSystem& a, bool sweeps);
-  /// Copies its own blocks again where they have changed; its couplings must not have.
-  void refresh(const BlockSystem& a);
+  /// Copies the own blocks of `rows` again, which is all that has changed. Returns where they stand here.
+  const std::vector<std::int32_t>& refresh(const BlockSystem& a, const std::vector<std::int32_t>& rows);
 
  private:
   enum class Kind : std::uint8_t { ahead, behind, beyond };
@@ -86,9 +86,9 @@ struct SweptSystem {
   void sumDiagonal(const BlockSystem& a, std::size_t k);
 
   std::vector<std::size_t> groupStart_ = {0};
-  std::vector<std::int32_t> place_;     ///< row of each of the BlockSystem's
-  std::vector<std::uint32_t> blockOf_;  ///< block of each of the BlockSystem's rows
-  std::vector<Eigen::Matrix3d> own_;    ///< of the BlockSystem, as last copied [kg]
+  std::vector<std::int32_t> place_;      ///< row of each of the BlockSystem's
+  std::vector<std::uint32_t> blockOf_;   ///< block of each of the BlockSystem's rows
+  std::vector<std::int32_t> refreshed_;  ///< rows of the last refresh()
 };
 
 /// Calls body(group, row) for the rows of each group, and so of each block, in order. Groups are the crew's
@@ -97,7 +97,8 @@ template <typename Body>
 void sweepForth(Crew& crew, const SweptSystem& a, const Body& body) {
   crew.forEachTask([&](std::size_t group) {
     const FlushTiny flush;
-    for (std::size_t k = a.groupStart()[group]; k < a.groupStart()[group + 1]; ++k) body(group, k);
+    const std::size_t last = a.groupStart()[group + 1];
+    for (std::size_t k = a.groupStart()[group]; k < last; ++k) body(group, k);
   });
 }
 
@@ -107,6 +108,43 @@ void sweepBack(Crew& crew, const SweptSystem& a, const Body& body) {
   crew.forEachTask([&](std::size_t group) {
     const FlushTiny flush;
     for (std::size_t k = a.groupStart()[group + 1]; k > a.groupStart()[group]; --k) body(group, k - 1);
+  });
+}
+
+/// Sums over the rows of a group, up to three; a cache line each.
+struct alignas(64) GroupSums {
+  double of[3] = {};
+
+  void set(const DoubleQuad* sums, int count) {
+    for (int i = 0; i < count; ++i) of[i] = sums[i][0] + sums[i][1] + sums[i][2];
+  }
+};
+
+/// sweepForth with kCount sums for each group: body(row, sums) adds quads of products to them, of which the
+/// first three numbers count. They stay in registers, and what is added to them one quad at a time takes a
+/// quarter of the instructions.
+template <int kCount, typename Body>
+void sumForth(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, const Body& body) {
+  sums.resize(a.groups());
+  crew.forEachTask([&](std::size_t group) {
+    const FlushTiny flush;
+    const std::size_t end = a.groupStart()[group + 1];
+    DoubleQuad of[kCount] = {};
+    for (std::size_t k = a.groupStart()[group]; k < end; ++k) body(k, of);
+    sums[group].set(of, kCount);
+  });
+}
+
+/// The same from last to first.
+template <int kCount, typename Body>
+void sumBack(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, const Body& body) {
+  sums.resize(a.groups());
+  crew.forEachTask([&](std::size_t group) {
+    const FlushTiny flush;
+    const std::size_t begin = a.groupStart()[group];
+    DoubleQuad of[kCount] = {};
+    for (std::size_t k = a.groupStart()[group + 1]; k > begin; --k) body(k - 1, of);
+    sums[group].set(of, kCount);
   });
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <utility>
 
 #include "foam/forces/solid_adhesion.h"
@@ -23,8 +23,8 @@ constexpr double kResolution = 1e-6;
 constexpr double kGiveWay = 1e-6;
 /// Brakes are left as they are where friction is that of the pin to within this share.
 constexpr double kSameBrake = 0.05;
-/// Rounds of a solve after which brakes are set anew. What they leave of a crowd's slipping waits for the next
-/// step: a brake that lags takes energy, whatever it is.
+/// Rounds of a solve after which brakes are set anew. What they leave of a crowd's slipping waits for the
+/// next step: a brake that lags takes energy, whatever it is.
 constexpr int kBrakeRounds = 2;
 
 /// Projection onto the plane of a wall.
@@ -51,16 +51,18 @@ void WallContacts::describe(const FoamParams& params, const Surroundings& around
   });
 }
 
-void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearMotion>& motion,
+void WallContacts::begin(const std::vector<NearWalls>& walls, const std::vector<LinearMotion>& motion,
                          const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
                          Vectors3& impulse) {
-  walls_ = std::move(walls), round_ = 0;
+  walls_.resize(walls.size()), room_.resize(walls.size()), round_ = 0;
   closed_.assign(grip_.size(), 0), brake_.assign(grip_.size(), 0.0);
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
+    walls_[i] = walls[i];
     const Vector3d velocity = motion[i].velocity + change[i];
     for (int k = 0; k < walls_[i].count; ++k)
       updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);
+    room_[i] = roomOf(i, motion[i].velocity, dt);
     if (grip.adhesion == 0 || walls_[i].count == 0) return;
     const NearWall& wall = walls_[i].wall[0];
     // Eq. 7, -s psi grad psi, implicit: the spring rests with the bubble's centre on the wall.
@@ -75,19 +77,27 @@ void WallContacts::begin(std::vector<NearWalls> walls, const std::vector<LinearM
   });
 }
 
-bool WallContacts::update(const std::vector<LinearMotion>& motion, const Vectors3& left, double dt,
-                          Vectors3& change, BlockSystem& system, Vectors3& impulse) {
+const std::vector<std::int32_t>& WallContacts::update(const std::vector<LinearMotion>& motion,
+                                                      const Vectors3& left, double dt, Vectors3& change,
+                                                      BlockSystem& system, Vectors3& impulse) {
   const bool setsBrakes = round_++ < kBrakeRounds;
-  const auto updateBubble = [&](std::size_t i) {
+  isChanged_.resize(grip_.size());
+  forEachIndex(grip_.size(), [&](std::size_t i) {
+    isChanged_[i] = 0;
+    if (change[i].squaredNorm() < room_[i] * room_[i]) return;
     const Vector3d predicted = motion[i].velocity, velocity = predicted + change[i];
     bool changed = false;
     for (int k = 0; k < walls_[i].count; ++k)
       changed |= updateContact(i, k, predicted, velocity, dt, system, impulse);
     if (setsBrakes && brake_[i] > 0)
       changed |= updateBrake(i, predicted, left[i].norm(), dt, change[i], system, impulse);
-    return changed;
-  };
-  return reduceIndices(grip_.size(), false, updateBubble, std::logical_or<>());
+    isChanged_[i] = changed;
+    if (changed) room_[i] = roomOf(i, predicted, dt);
+  });
+  changed_.clear();
+  for (std::size_t i = 0; i < isChanged_.size(); ++i)
+    if (isChanged_[i]) changed_.push_back(static_cast<std::int32_t>(i));
+  return changed_;
 }
 
 bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& predicted, const Vector3d& velocity,
@@ -106,6 +116,20 @@ bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& predicted
   system.own[i] -= signedDt * dt * wallContactSlope(grip.stiffness) * wall.away * wall.away.transpose();
   impulse[i] += signedDt * push * wall.away;
   return true;
+}
+
+/// Most bubbles are far from all walls, and to find that out again in every round takes a look at one number.
+double WallContacts::roomOf(std::size_t i, const Vector3d& predicted, double dt) const {
+  constexpr double kSurely = 0.999;  // with room for rounding
+  const Grip& grip = grip_[i];
+  if (closed_[i] || brake_[i] > 0 || grip.adhesion > 0) return 0;
+  double room = std::numeric_limits<double>::max();
+  for (int k = 0; k < walls_[i].count; ++k) {
+    const NearWall& wall = walls_[i].wall[k];
+    const double above = wall.psiAfter(predicted, dt) - (k == 0 ? grip.gap : grip.radius);
+    room = std::min(room, kSurely * above / (dt * wall.away.norm()));
+  }
+  return std::max(0.0, room);
 }
 
 void WallContacts::setBrake(std::size_t i, double brake, const Vector3d& predicted, BlockSystem& system,

@@ -26,21 +26,21 @@ class WallContacts {
                 BubbleStore& bubbles);
 
   /// Adds contacts, adhesion and brakes to the system, for the walls found on the way of `motion`, as suits
-  /// the velocities motion + change, of which it takes the slip of what is stuck: a start from which the stiff
-  /// hold of one bubble does not set the scale of the residual of all.
-  void begin(std::vector<NearWalls> walls, const std::vector<LinearMotion>& motion,
+  /// the velocities motion + change, of which it takes the slip of what is stuck: a start from which the
+  /// stiff hold of one bubble does not set the scale of the residual of all.
+  void begin(const std::vector<NearWalls>& walls, const std::vector<LinearMotion>& motion,
              const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
              Vectors3& impulse);
 
-  /// Closes and opens contacts, in the first rounds also sets brakes anew, to suit motion + change; true if any
-  /// changed. A closed contact is a spring in the system, so it stops a bubble however its neighbours push.
-  /// `left` is what the solve leaves of each row [N s]: no pin gives way to less. Gives bubbles whose brake has
-  /// changed the slip that suits it.
-  bool update(const std::vector<LinearMotion>& motion, const Vectors3& left, double dt, Vectors3& change,
-              BlockSystem& system, Vectors3& impulse);
+  /// Closes and opens contacts, in the first rounds also sets brakes anew, to suit motion + change; returns
+  /// the bubbles for which any changed. A closed contact is a spring in the system, so it stops a bubble
+  /// however its neighbours push. `left` is what the solve leaves of each row [N s]: no pin gives way to
+  /// less. Gives bubbles whose brake has changed the slip that suits it.
+  const std::vector<std::int32_t>& update(const std::vector<LinearMotion>& motion, const Vectors3& left,
+                                          double dt, Vectors3& change, BlockSystem& system,
+                                          Vectors3& impulse);
 
  private:
-
   /// How a bubble meets solids.
   struct Grip {
     double radius = 0;
@@ -55,14 +55,20 @@ class WallContacts {
                      double dt, BlockSystem& system, Vectors3& impulse);
   bool updateBrake(std::size_t i, const Eigen::Vector3d& predicted, double error, double dt,
                    Eigen::Vector3d& change, BlockSystem& system, Vectors3& impulse);
+  double roomOf(std::size_t i, const Eigen::Vector3d& predicted, double dt) const;
   void setBrake(std::size_t i, double brake, const Eigen::Vector3d& predicted, BlockSystem& system,
                 Vectors3& impulse);
 
   std::vector<NearWalls> walls_;
   std::vector<Grip> grip_;
-  int round_ = 0;             ///< of the solve
+  int round_ = 0;                     ///< of the solve
   std::vector<double> brake_;         ///< friction along the first wall: impulse per slip [kg]
   std::vector<std::uint8_t> closed_;  ///< bit k: the spring of wall k is closed
+  /// Change of its velocity below which nothing about a bubble's walls changes, 0 if it has to be looked at
+  /// in every round [m/s].
+  std::vector<double> room_;
+  std::vector<std::uint8_t> isChanged_;
+  std::vector<std::int32_t> changed_;  ///< bubbles, by the last update()
 };
 
 }  // namespace spume::foam

@@ -31,7 +31,7 @@ Timed timeSolve(LinearSolver kind, const BlockSystem& a, const Vectors3& b, doub
   Timed timed{1e300, {}};
   for (int repeat = 0; repeat < 4; ++repeat) {  // the first one makes room
     x.assign(a.size(), Eigen::Vector3d::Zero());
-    const double goal = tolerance * solver.residual(a, b, x);
+    const double goal = tolerance * solver.begin(a, b, x);
     const double start = secondsNow();
     timed.report = solver.solve(a, b, goal, 100000, x);
     timed.seconds = std::min(timed.seconds, secondsNow() - start);
