@@ -35,14 +35,6 @@ Quad padded(const Eigen::Vector3d& v) {
       Vector4f(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0));
 }
 
-/// What a sum of a . b takes.
-DoubleQuad products(const Quad& a, const Quad& b) { return widened(a * b); }
-DoubleQuad squares(const Eigen::Vector3d& v) {
-  DoubleQuad of = {};
-  for (int c = 0; c < 3; ++c) of[c] = v[c] * v[c];
-  return of;
-}
-
 }  // namespace
 
 int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double norm,
@@ -94,7 +86,7 @@ double BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesk
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
     state_[k] = {Vector4f::Zero(), toVector(residual), Vector4f::Zero(), Vector4f::Zero()};
     image_[k].setZero();
-    of[0] += products(residual, residual);
+    addTo(of[0], residual * residual);
   });
   return total(0);
 }
@@ -136,7 +128,7 @@ double BlockPcg::searchBack(Crew& crew, const SweptSystem& a, const IncompleteCh
     const Quad step = direction + scale.times(known);
     known_[k] = toVector(scale.transposedTimes(step));
     s.direction = toVector(direction), s.step = toVector(step);
-    of[0] += products(residual, residual);
+    addTo(of[0], residual * residual);
   });
   return total(0);
 }
@@ -152,8 +144,8 @@ BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const In
     known_[behind(k)] = toVector(-scale.transposedTimes(image));
     image_[k] = toVector(image);
     const Quad change = step + image;
-    of[0] += products(direction, change);
-    of[1] += products(loadQuad(s.residual), change), of[2] += products(change, change);
+    addTo(of[0], direction * change);
+    addTo(of[1], loadQuad(s.residual) * change), addTo(of[2], change * change);
   });
   return {total(0), total(1), total(2)};
 }
@@ -174,8 +166,9 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
     const Quad residual = loadQuad(state_[k].residual);
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
     const Eigen::Vector3d across = toVector(coupledWithin(a, k)).head<3>().cast<double>();
-    of[0] += squares(scale.solve(toVector(residual).head<3>().cast<double>()) + across);
-    of[1] += products(residual, residual);
+    const Eigen::Vector3d plain = scale.solve(toVector(residual).head<3>().cast<double>()) + across;
+    for (int c = 0; c < 3; ++c) of[0][c] += plain[c] * plain[c];
+    addTo(of[1], residual * residual);
   });
   return {std::sqrt(total(0)), total(1)};
 }

@@ -35,7 +35,8 @@ inline Eigen::Vector4f toVector(const Quad& quad) {
   return to;
 }
 
-inline DoubleQuad widened(const Quad& x) { return __builtin_convertvector(x, DoubleQuad); }
+/// Adds in double precision. By reference: without AVX functions do not return vectors of this size.
+inline void addTo(DoubleQuad& sum, const Quad& x) { sum += __builtin_convertvector(x, DoubleQuad); }
 
 /// kQuads quads that lie one after the other.
 inline QuadLanes loadQuads(const Eigen::Vector4f* from) {

@@ -99,6 +99,26 @@ TEST_P(SweptSystemOf, BlocksOfAGroupEndTogether) {
   }
 }
 
+TEST_P(SweptSystemOf, SumsOfSweepsAreThoseOfTheirRows) {
+  swept.copy(system, true);
+  std::vector<double> expected(swept.groups());
+  for (std::size_t g = 0; g < swept.groups(); ++g)
+    for (std::size_t k = swept.groupStart()[g]; k < swept.groupStart()[g + 1]; ++k)
+      expected[g] += static_cast<double>(k % 7);  // few digits: exact in any order
+  const auto add = [](std::size_t k, DoubleQuad* of) {
+    const auto one = static_cast<float>(k % 7);
+    addTo(of[0], Quad{one, 0, 0, 9}), addTo(of[1], Quad{0, one, one, 9});
+  };
+  std::vector<GroupSums> forth, back;
+  Crew::lead(swept.groups(),
+             [&](Crew& crew) { sumForth<2>(crew, swept, forth, add), sumBack<2>(crew, swept, back, add); });
+  for (std::size_t g = 0; g < swept.groups(); ++g)
+    for (const GroupSums& sums : {forth[g], back[g]}) {
+      EXPECT_EQ(sums.of[0], expected[g]);
+      EXPECT_EQ(sums.of[1], 2 * expected[g]);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Rows, SweptSystemOf, testing::Values(1, 700, 2100, 9000));
 
 }  // namespace
