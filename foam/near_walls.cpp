@@ -26,10 +26,11 @@ struct Feelers {
   std::vector<std::size_t> owner;
   Eigen::Matrix3Xd offset, point;
 
-  Feelers(const BubbleStore& bubbles, const std::vector<double>& reach, const std::vector<NearWalls>& walls,
-          int known, Look look) {
-    for (std::size_t i = 0; i < walls.size(); ++i)
-      if (walls[i].count == known && walls[i].wall[0].psi < reach[i]) owner.push_back(i);
+  /// Of those of the bubbles `close` to a wall that know so many.
+  Feelers(const BubbleStore& bubbles, const std::vector<double>& reach, const std::vector<std::size_t>& close,
+          const std::vector<NearWalls>& walls, int known, Look look) {
+    for (const std::size_t i : close)
+      if (walls[i].count == known) owner.push_back(i);
     offset.setZero(3, static_cast<Eigen::Index>(owner.size()));
     point.resize(3, offset.cols());
     for (Eigen::Index f = 0; f < offset.cols(); ++f) {
@@ -44,11 +45,12 @@ struct Feelers {
   }
 };
 
-/// One round: every bubble with `count` known walls looks for the next. What is seen from afar counts only if
-/// a flat wall there could be: the feeler is in free space, and the wall is not nearer than the nearest.
+/// One round: every bubble close to a wall with `count` known walls looks for the next. What is seen from
+/// afar counts only if a flat wall there could be: the feeler is in free space, and the wall is not nearer
+/// than the nearest.
 void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::vector<double>& reach,
-          int count, Look look, std::vector<NearWalls>& walls) {
-  const Feelers feelers(bubbles, reach, walls, count, look);
+          const std::vector<std::size_t>& close, int count, Look look, std::vector<NearWalls>& walls) {
+  const Feelers feelers(bubbles, reach, close, walls, count, look);
   const Eigen::Index n = feelers.point.cols();
   if (n == 0) return;
   Eigen::VectorXd psi(n);
@@ -78,8 +80,11 @@ void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, cons
     if (away.norm() == 0) return;
     walls[i].wall[walls[i].count++] = {around.psi[i], away, around.solidVelocity.col(i), around.solid[i]};
   });
+  std::vector<std::size_t> close;
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    if (around.psi[i] < reach[i]) close.push_back(i);
   for (const Look look : {Look::near, Look::far})
-    for (const int count : {1, 2}) feel(liquid, bubbles, reach, count, look, walls);
+    for (const int count : {1, 2}) feel(liquid, bubbles, reach, close, count, look, walls);
 }
 
 }  // namespace spume::foam
