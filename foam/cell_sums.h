@@ -36,16 +36,20 @@ class CellSums {
   /// The film in that plane; `solid` is its solid angle from this centre, `heightShift` undoes the jitter of
   /// h.
   void addFilm(const FilmShape& film, double height, double heightShift, double solid) {
-    anyFilm_ = true;
+    addFace(film, height, heightShift, solid);
+    films_ += film.trueArea();
+  }
+  /// As a film, but it is none: a wall.
+  void addFace(const FilmShape& film, double height, double heightShift, double solid) {
+    anyFace_ = true;
     solid_ += height < 0 ? solid : -solid;
     pyramids_ += height * film.area;
     volumeShift_ += film.area * heightShift;
     rimHeight_ += film.arc * height;
     rimShift_ += film.arc * heightShift;
-    films_ += film.trueArea();
   }
 
-  bool hidden() const { return !anyFilm_ && freeSolid() == 0; }
+  bool hidden() const { return !anyFace_ && freeSolid() == 0; }
   double filmArea() const { return films_; }
   double freeArea() const {
     const double r = ball_.radius, dr = ball_.radiusShift, free = r * r * freeSolid();
@@ -67,7 +71,7 @@ class CellSums {
   }
 
   TieBrokenBall ball_;
-  bool centreInside_ = true, anyFilm_ = false;
+  bool centreInside_ = true, anyFace_ = false;
   double solid_ = 0, pyramids_ = 0, volumeShift_ = 0, rimHeight_ = 0, rimShift_ = 0, films_ = 0;
 };
 

@@ -27,12 +27,12 @@ struct Edge {
 
 }  // namespace
 
-bool EdgeBatch::add(const DiscLines& lines, const DiscBalls& balls, FilmShape& film) {
+bool EdgeBatch::add(const DiscLines& lines, std::size_t disc, const DiscBalls& balls, FilmShape& film) {
   const std::size_t begin = edges_.count;
-  const DiscLines::Rest rest = lines.clip(edges_);
+  const DiscLines::Rest rest = lines.clip(disc, edges_);
   if (!rest.any) return false;
   noteHeights(begin, balls);
-  discs_.push_back({balls, lines.discRadius2(), edges_.count, rest.centreInside, rest.closed, &film});
+  discs_.push_back({balls, lines.discRadius2(disc), edges_.count, rest.centreInside, rest.closed, &film});
   if (edges_.count > kBatchEdges) flush();
   return true;
 }

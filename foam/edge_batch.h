@@ -22,7 +22,7 @@ class EdgeBatch {
  public:
   /// Clips a disc, its lines scaled, and takes it into the batch unless nothing is left of it: false then.
   /// `film` is written at flush() at the latest.
-  bool add(const DiscLines& lines, const DiscBalls& balls, FilmShape& film);
+  bool add(const DiscLines& lines, std::size_t disc, const DiscBalls& balls, FilmShape& film);
   /// Fills the films of all discs since the last time.
   void flush();
 

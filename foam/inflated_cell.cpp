@@ -173,10 +173,12 @@ void InflatedCell::listNeighbours() {
 bool InflatedCell::sharesFace(std::size_t k) {
   if (left_[k].cornerWithin) return true;
   if (!hasPlanes_) collectPlanes();
-  if (!disc_.find(planes_, k, reach_)) return false;
+  const auto face = static_cast<std::int32_t>(k);
+  disc_.find(planes_, {&face, 1}, reach_);
+  if (!disc_.isLeft(0)) return false;
   disc_.scale();
   edges_.count = 0;
-  return disc_.clip(edges_).any;
+  return disc_.clip(0, edges_).any;
 }
 
 /// The planes of all faces that are left, for the discs.

@@ -56,7 +56,9 @@ void NeighbourPlanes::find(const RawBuffer<RankedBall>& balls, std::int32_t s, c
 void NeighbourPlanes::addOverlaps(std::size_t k, const Block& to, double ownRadius,
                                   const Candidates& candidates) {
   const std::uint32_t below = k < candidates.lower ? lanesBelow(candidates.lower - k) : 0;
-  const std::uint32_t owned = bitsOf(ownRadius < to.radius) | (bitsOf(ownRadius == to.radius) & ~below);
+  const std::uint32_t bubbles = k < candidates.bubbles ? lanesBelow(candidates.bubbles - k) : 0;
+  const std::uint32_t owned =
+      bitsOf(ownRadius < to.radius) | (bitsOf(ownRadius == to.radius) & ~below) | ~bubbles;
   for (std::size_t l = 0; l < kLanes; ++l)
     from_.link[k + l] = 2 * candidates.pair[k + l] + static_cast<std::int32_t>(owned >> l & 1);
   storeSelected(touching_, &from_.index[k], &index[overlaps]);

@@ -26,6 +26,7 @@ struct NeighbourPlanes {
     const std::int32_t* rank;  ///< by ascending input index; padded for whole lanes, as the next
     const std::int32_t* pair;  ///< number of the pair
     std::size_t count, lower;  ///< how many; of lower input index than the ball
+    std::size_t bubbles;       ///< how many, from the first, are bubbles and not only cut the ball
   };
 
   std::size_t overlaps = 0, lower = 0;  ///< candidates that overlap; of lower input index
@@ -39,8 +40,8 @@ struct NeighbourPlanes {
   std::vector<double> farHeight;  ///< signed distance of the plane from its centre [m]
   bool centreInside = true;       ///< no plane cuts this ball's centre away
 
-  /// For ball s. The smaller ball of a pair is the owner; of two that are the same the one of lower input
-  /// index.
+  /// For ball s, a bubble. The smaller ball of a pair is the owner; of two that are the same the one of lower
+  /// input index; of a bubble and one that is none the bubble, which alone knows all that cut their disc.
   void find(const RawBuffer<RankedBall>& balls, std::int32_t s, const Candidates& candidates);
 
  private:

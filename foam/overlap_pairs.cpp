@@ -30,11 +30,15 @@ const std::int32_t* findIn(const std::int32_t* list, std::int32_t value) {
 
 }  // namespace
 
-bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) {
-  if (stillValid(position, radius)) return false;
+bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
+                          std::size_t strangers) {
+  ++uses_;
+  if (strangers == strangers_ && holdsWith(skin_, position, radius)) return false;
+  chooseSkin(position, radius);
+  strangers_ = strangers;
   builtPosition_ = position;
   builtRadius_ = radius;
-  tree_.build(position, radius, 1 + kSkin);
+  tree_.build(position, radius, 1 + skin_);
   rank_.resize(radius.size());
   forEachIndex(radius.size(), [&](std::size_t s) { rank_[order()[s]] = static_cast<std::int32_t>(s); });
   findRows();
@@ -43,9 +47,18 @@ bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const st
   return true;
 }
 
+/// Before a list is replaced. It has been asked for once in vain beside the times it was used.
+void OverlapPairs::chooseSkin(const std::vector<Eigen::Vector3d>& position,
+                              const std::vector<double>& radius) {
+  const bool before = movedLittle_;
+  movedLittle_ = uses_ > 3 || (skin_ < kSkin && holdsWith(kSkin, position, radius));
+  skin_ = before && movedLittle_ ? kSkin : kNoSkin;
+  uses_ = 1;
+}
+
 /// Motion common to all bubbles brings none nearer to another: it need not count.
-bool OverlapPairs::stillValid(const std::vector<Eigen::Vector3d>& position,
-                              const std::vector<double>& radius) const {
+bool OverlapPairs::holdsWith(double skin, const std::vector<Eigen::Vector3d>& position,
+                             const std::vector<double>& radius) const {
   const std::size_t n = radius.size();
   if (n != builtRadius_.size() || rowStart_.empty()) return false;
   if (n == 0) return true;
@@ -53,7 +66,7 @@ bool OverlapPairs::stillValid(const std::vector<Eigen::Vector3d>& position,
   const auto allStayClose = [&](const Eigen::Vector3d& drift) {
     const auto staysClose = [&](std::size_t i) {
       const double moved = (displacement(i) - drift).norm() + std::abs(radius[i] - builtRadius_[i]);
-      return moved <= kSkin * builtRadius_[i];
+      return moved <= skin * builtRadius_[i];
     };
     return reduceIndices(n, true, staysClose, std::logical_and<>());
   };
@@ -86,7 +99,12 @@ void OverlapPairs::findRows() {
 void OverlapPairs::findRow(std::int32_t s, Finder& finder) {
   tree_.findNear(s, finder.query);
   sortShort(finder.query.near, finder.query.found, finder.sorted);
-  const auto upper = std::lower_bound(finder.sorted.begin(), finder.sorted.end(), order()[s]);
+  const auto firstFrom = [&](std::int32_t index) {
+    return std::lower_bound(finder.sorted.begin(), finder.sorted.end(), index);
+  };
+  if (const std::int32_t known = size() - static_cast<std::int32_t>(strangers_); order()[s] >= known)
+    finder.sorted.erase(firstFrom(known), finder.sorted.end());
+  const auto upper = firstFrom(order()[s]);
   rowStart_[s + 1] = static_cast<std::int32_t>(finder.sorted.size());
   upperStart_[s] = static_cast<std::int32_t>(upper - finder.sorted.begin());
   firstPair_[s + 1] = 0;

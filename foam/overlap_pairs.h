@@ -12,27 +12,34 @@
 namespace spume::foam {
 
 /// For every bubble the others near enough to overlap it now or soon: a Verlet list. Two bubbles are
-/// candidates when their distance is below (1 + kSkin)(r_i + r_j) at the time of building, so the list holds
-/// until a bubble has |dx| + |dr| > kSkin r, with or without the mean dx of all taken off. `ball_tree` finds
+/// candidates when their distance is below (1 + skin)(r_i + r_j) at the time of building, so the list holds
+/// until a bubble has |dx| + |dr| > skin r, with or without the mean dx of all taken off. `ball_tree` finds
 /// the pairs.
+///
+/// A list with room to move has longer rows, by a third in a dense foam, for every later pass to go through:
+/// it pays where it is used three times. So it is given that room only where bubbles have moved so little
+/// twice in a row; else, and in the beginning, it holds for these balls alone.
 ///
 /// Bubbles are numbered here by *rank*, along a curve through space: neighbours are near in memory. Rows list
 /// candidates by input index, so that what is summed along a row does not depend on when the list was built.
 class OverlapPairs {
  public:
-  /// Free motion before a rebuild, in radii: larger means fewer rebuilds but longer rows (they grow with its
-  /// cube).
+  /// Free motion before a rebuild, in radii, of a list with room: larger means fewer rebuilds but longer rows
+  /// (they grow with its cube).
   static constexpr double kSkin = 0.12;
+  /// And of one without: no more than round-off of what moves or scales as a whole.
+  static constexpr double kNoSkin = 1e-6;
 
   /// The ball of one rank that may come to lie within that of another while the list holds.
   struct Nesting {
     std::int32_t inner, outer;
   };
 
-  /// Brings the list up to date for `position` [m] and `radius` [m, > 0], of equal length and finite. Returns
-  /// true if it had to be rebuilt. The content may depend on earlier calls; the true overlaps within it do
-  /// not.
-  bool update(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
+  /// Brings the list up to date for `position` [m] and `radius` [m, > 0], of equal length and finite. The
+  /// last `strangers` balls know those before them alone, not each other. Returns true if it had to be
+  /// rebuilt. The content may depend on earlier calls; the true overlaps within it do not.
+  bool update(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
+              std::size_t strangers = 0);
 
   int size() const { return static_cast<int>(tree_.size()); }
   /// Input index of each rank, and rank of each input index.
@@ -65,12 +72,18 @@ class OverlapPairs {
     std::size_t begin = 0;
   };
 
-  bool stillValid(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) const;
+  void chooseSkin(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
+  bool holdsWith(double skin, const std::vector<Eigen::Vector3d>& position,
+                 const std::vector<double>& radius) const;
   void findRows();
   void findRow(std::int32_t s, Finder& finder);
   void joinRows();
   void numberPairs();
 
+  double skin_ = kNoSkin;     ///< of the list
+  int uses_ = 0;              ///< of the list, so far
+  bool movedLittle_ = false;  ///< when it was asked for last
+  std::size_t strangers_ = 0;
   std::vector<Eigen::Vector3d> builtPosition_;  ///< by input index
   std::vector<double> builtRadius_;
   BallTree tree_;

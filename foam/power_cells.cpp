@@ -49,8 +49,8 @@ struct alignas(64) PairFilm {
 struct PowerCells::Internals {
   struct Scratch {
     NeighbourPlanes around;
-    std::vector<DiscLines> lines;        ///< of the discs of one ball that are not gone yet
-    std::vector<std::int32_t> lineDisc;  ///< which overlap each of them is of
+    DiscLines lines;                       ///< of the discs that one ball owns
+    std::vector<std::int32_t> disc, face;  ///< their overlaps and their planes
     EdgeBatch edges;
   };
   /// An overlap of a bubble's row.
@@ -60,10 +60,12 @@ struct PowerCells::Internals {
   };
   struct Row {
     std::int32_t overlaps, lower;  ///< how many; of lower input index
+    std::int32_t bubbles;          ///< of them, the first: those with bubbles
     bool centreInside;             ///< no plane cuts the ball's centre away
   };
 
   OverlapPairs near;
+  std::int32_t bubbles = 0;  ///< the balls from this input index on are cutters
   RawBuffer<RankedBall> balls;
   RawBuffer<Overlap> overlap;         ///< of each bubble from its first slot in OverlapPairs on
   RawBuffer<Row> rows;                ///< by rank
@@ -77,14 +79,15 @@ struct PowerCells::Internals {
   const Overlap* row(std::int32_t s) const { return overlap.data() + near.rowStart()[s]; }
 
   void load(const std::vector<Vector>& position, const std::vector<double>& trueRadius,
-            const std::vector<std::uint64_t>& id);
+            const std::vector<std::uint64_t>& id, std::size_t cutters);
   void hide();
   void cutDiscs();
   void fetchPairs(std::int32_t s) const;
+  NeighbourPlanes::Candidates candidatesOf(std::int32_t s) const;
   void cutRow(std::int32_t s, Scratch& local);
   void noteRow(std::int32_t s, const NeighbourPlanes& around);
-  void findLines(std::int32_t s, Scratch& local);
-  void cutDisc(std::int32_t s, std::int32_t k, const DiscLines& lines, Scratch& local);
+  void findDiscs(std::int32_t s, Scratch& local);
+  void cutDisc(std::int32_t s, std::size_t disc, Scratch& local);
   PairFilm& filmOf(const NeighbourPlanes& around, std::int32_t k) { return film[around.link[k] / 2]; }
   void noteBare(std::int32_t s, const NeighbourPlanes& around, std::int32_t k);
   void numberPairs(FoamTopology& out);
@@ -94,8 +97,9 @@ struct PowerCells::Internals {
 };
 
 void PowerCells::Internals::load(const std::vector<Vector>& position, const std::vector<double>& trueRadius,
-                                 const std::vector<std::uint64_t>& id) {
-  near.update(position, trueRadius);
+                                 const std::vector<std::uint64_t>& id, std::size_t cutters) {
+  near.update(position, trueRadius, cutters);
+  bubbles = size() - static_cast<std::int32_t>(cutters);
   const auto n = static_cast<std::size_t>(size());
   balls.resize(n), rows.resize(n), bare.resize(n), firstPair.resize(n + 1), firstFilm.resize(n + 1);
   overlap.resize(near.slots()), film.resize(near.slots() / 2);
@@ -121,7 +125,8 @@ void PowerCells::Internals::hide() {
 void PowerCells::Internals::cutDiscs() {
   tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, size(), kBubbleGrain), [&](const auto& range) {
     Scratch& local = scratch.local();
-    for (std::int32_t s = range.begin(); s < range.end(); ++s) cutRow(s, local);
+    for (std::int32_t s = range.begin(); s < range.end(); ++s)
+      if (balls[s].index < bubbles) cutRow(s, local);
     local.edges.flush();
   });
 }
@@ -134,39 +139,51 @@ void PowerCells::Internals::fetchPairs(std::int32_t s) const {
     __builtin_prefetch(&film[pair], 1);
 }
 
+NeighbourPlanes::Candidates PowerCells::Internals::candidatesOf(std::int32_t s) const {
+  const std::int32_t begin = near.rowStart()[s], upper = near.upperStart()[s], end = near.rowStart()[s + 1];
+  std::int32_t cutters = end;
+  while (cutters > upper && balls[near.candidate()[cutters - 1]].index >= bubbles) --cutters;
+  return {near.candidate().data() + begin, near.pair().data() + begin, static_cast<std::size_t>(end - begin),
+          static_cast<std::size_t>(upper - begin), static_cast<std::size_t>(cutters - begin)};
+}
+
 /// Finds the row of ball s, and cuts the discs that it owns, each by all planes that cut the ball.
 void PowerCells::Internals::cutRow(std::int32_t s, Scratch& local) {
   NeighbourPlanes& around = local.around;
-  const std::int32_t begin = near.rowStart()[s];
-  around.find(balls, s,
-              {near.candidate().data() + begin, near.pair().data() + begin,
-               static_cast<std::size_t>(near.rowStart()[s + 1] - begin),
-               static_cast<std::size_t>(near.upperStart()[s] - begin)});
+  around.find(balls, s, candidatesOf(s));
   fetchPairs(s);
   noteRow(s, around);
-  findLines(s, local);
-  for (std::size_t disc = 0; disc < local.lineDisc.size(); ++disc) local.lines[disc].scale();
-  for (std::size_t disc = 0; disc < local.lineDisc.size(); ++disc)
-    cutDisc(s, local.lineDisc[disc], local.lines[disc], local);
+  findDiscs(s, local);
+  local.lines.find(around.planes, local.face, balls[s].ball.radius);
+  local.lines.scale();
+  for (std::size_t disc = 0; disc < local.disc.size(); ++disc)
+    if (local.lines.isLeft(disc))
+      cutDisc(s, disc, local);
+    else
+      noteBare(s, around, local.disc[disc]);
 }
 
-/// Cuts the disc of overlap k of ball s by the lines on it.
-void PowerCells::Internals::cutDisc(std::int32_t s, std::int32_t k, const DiscLines& lines, Scratch& local) {
+/// Cuts a disc of ball s by the lines on it.
+void PowerCells::Internals::cutDisc(std::int32_t s, std::size_t disc, Scratch& local) {
   const NeighbourPlanes& around = local.around;
+  const std::int32_t k = local.disc[disc];
   const TieBrokenBall& ball = balls[s].ball;
   const std::int32_t p = around.planeOf[k];
   PairFilm& pair = filmOf(around, k);
   pair.height = around.planes.height[p], pair.farHeight = around.farHeight[p];
   const DiscBalls sides{ball.radius,      ball.radiusShift, pair.height, around.planes.heightShift[p],
                         around.radius[p], pair.farHeight};
-  if (!local.edges.add(lines, sides, pair.shape)) noteBare(s, around, k);
+  if (!local.edges.add(local.lines, disc, sides, pair.shape)) noteBare(s, around, k);
 }
 
 /// Keeps the row, and begins what is kept of the pairs that the ball owns.
 void PowerCells::Internals::noteRow(std::int32_t s, const NeighbourPlanes& around) {
   const auto overlaps = static_cast<std::int32_t>(around.overlaps);
-  rows[s] = {overlaps, static_cast<std::int32_t>(around.lower), around.centreInside};
-  firstPair[balls[s].index + 1] = overlaps - rows[s].lower;
+  const auto lower = static_cast<std::int32_t>(around.lower);
+  std::int32_t withBubbles = overlaps;
+  while (withBubbles > lower && around.index[withBubbles - 1] >= bubbles) --withBubbles;
+  rows[s] = {overlaps, lower, withBubbles, around.centreInside};
+  firstPair[balls[s].index + 1] = withBubbles - lower;
   Overlap* kept = overlap.data() + near.rowStart()[s];
   for (std::int32_t k = 0; k < overlaps; ++k) {
     kept[k] = {around.index[k], around.link[k]};
@@ -174,17 +191,14 @@ void PowerCells::Internals::noteRow(std::int32_t s, const NeighbourPlanes& aroun
   }
 }
 
-/// Finds the lines on the discs that ball s owns.
-void PowerCells::Internals::findLines(std::int32_t s, Scratch& local) {
+/// Lists the discs that ball s owns.
+void PowerCells::Internals::findDiscs(std::int32_t s, Scratch& local) {
   const NeighbourPlanes& around = local.around;
-  local.lineDisc.clear();
+  local.disc.clear(), local.face.clear();
   for (std::int32_t k = 0; k < rows[s].overlaps; ++k) {
     if (around.link[k] % 2 == 0) continue;
-    const std::int32_t p = around.planeOf[k];
-    const std::size_t disc = local.lineDisc.size();
-    if (local.lines.size() == disc) local.lines.emplace_back();
-    if (p >= 0 && local.lines[disc].find(around.planes, static_cast<std::size_t>(p), balls[s].ball.radius))
-      local.lineDisc.push_back(k);
+    if (const std::int32_t p = around.planeOf[k]; p >= 0)
+      local.disc.push_back(k), local.face.push_back(p);
     else
       noteBare(s, around, k);
   }
@@ -193,6 +207,7 @@ void PowerCells::Internals::findLines(std::int32_t s, Scratch& local) {
 /// Notes that overlap k of ball s has no film.
 void PowerCells::Internals::noteBare(std::int32_t s, const NeighbourPlanes& around, std::int32_t k) {
   filmOf(around, k).shape.arc = kNoFilm;
+  if (around.index[k] >= bubbles) return;
   const std::int32_t first = std::min(balls[s].index, around.index[k]);
   std::atomic_ref(bare[first]).fetch_add(1, std::memory_order_relaxed);
 }
@@ -200,18 +215,19 @@ void PowerCells::Internals::noteBare(std::int32_t s, const NeighbourPlanes& arou
 /// Numbers overlapping pairs and films by (i, j).
 void PowerCells::Internals::numberPairs(FoamTopology& out) {
   firstPair[0] = firstFilm[0] = 0;
-  for (std::int32_t i = 0; i < size(); ++i) {
+  for (std::int32_t i = 0; i < bubbles; ++i) {
     firstFilm[i + 1] = firstFilm[i] + firstPair[i + 1] - bare[i];
     firstPair[i + 1] += firstPair[i];
   }
-  out.overlaps.resize(firstPair[size()]), out.films.resize(firstFilm[size()]);
+  out.overlaps.resize(firstPair[bubbles]), out.films.resize(firstFilm[bubbles]);
 }
 
 void PowerCells::Internals::measureCells(FoamTopology& out) {
-  for (auto* column : {&out.volume, &out.freeArea, &out.filmArea}) column->resize(size());
-  out.hidden.resize(size());
+  for (auto* column : {&out.volume, &out.freeArea, &out.filmArea}) column->resize(bubbles);
+  out.hidden.resize(bubbles);
   forEachBubble(size(), [&](std::int32_t s) {
     fetchPairs(s);
+    if (balls[s].index >= bubbles) return;
     measureCell(s, out);
     listRow(s, out);
   });
@@ -225,9 +241,13 @@ void PowerCells::Internals::measureCell(std::int32_t s, FoamTopology& out) const
     const PairFilm& pair = film[link / 2];
     if (!pair.exists()) continue;
     const bool owned = link % 2;
-    sums.addFilm(pair.shape, owned ? pair.height : pair.farHeight,
-                 owned ? pair.shape.heightShift : -pair.shape.heightShift,
-                 owned ? pair.shape.solidNear : pair.shape.solidFar);
+    const double height = owned ? pair.height : pair.farHeight;
+    const double shift = owned ? pair.shape.heightShift : -pair.shape.heightShift;
+    const double solid = owned ? pair.shape.solidNear : pair.shape.solidFar;
+    if (k < rows[s].bubbles)
+      sums.addFilm(pair.shape, height, shift, solid);
+    else
+      sums.addFace(pair.shape, height, shift, solid);
   }
   const std::int32_t i = balls[s].index;
   out.hidden[i] = balls[s].visible == 0 || sums.hidden();
@@ -240,7 +260,7 @@ void PowerCells::Internals::measureCell(std::int32_t s, FoamTopology& out) const
 void PowerCells::Internals::listRow(std::int32_t s, FoamTopology& out) const {
   const std::int32_t i = balls[s].index;
   std::int32_t nextPair = firstPair[i], nextFilm = firstFilm[i];
-  for (std::int32_t k = rows[s].lower; k < rows[s].overlaps; ++k) {
+  for (std::int32_t k = rows[s].lower; k < rows[s].bubbles; ++k) {
     const auto [j, link] = row(s)[k];
     const PairFilm& pair = film[link / 2];
     out.overlaps[nextPair++] = {i, j, pair.distance, pair.exists() ? nextFilm : -1};
@@ -257,9 +277,9 @@ PowerCells::PowerCells(PowerCells&&) noexcept = default;
 PowerCells& PowerCells::operator=(PowerCells&&) noexcept = default;
 
 void PowerCells::compute(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
-                         const std::vector<std::uint64_t>& id, FoamTopology& out) {
+                         const std::vector<std::uint64_t>& id, FoamTopology& out, std::size_t cutters) {
   checkBalls("PowerCells", position, radius, id);
-  internals_->load(position, radius, id);
+  internals_->load(position, radius, id, std::min(cutters, radius.size()));
   internals_->hide();
   internals_->cutDiscs();
   internals_->numberPairs(out);

@@ -21,10 +21,11 @@ class PowerCells {
 
   /// Fills `out` for balls at `position` [m] with `radius` [m, > 0]. `id` breaks exact ties: each radius is
   /// scaled by 1 + 1e-9 x hash(id) while contacts are decided, and volumes and areas are corrected back to
-  /// first order. O(n) for bounded numbers of neighbours. Throws InvalidParameter if lengths differ, or a
-  /// position or radius is not finite or a radius not positive.
+  /// first order. The last `cutters` balls are no bubbles: they cut the others, but nothing of theirs goes
+  /// out, and where they cut is no film. O(n) for bounded numbers of neighbours. Throws InvalidParameter if
+  /// lengths differ, or a position or radius is not finite or a radius not positive.
   void compute(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
-               const std::vector<std::uint64_t>& id, FoamTopology& out);
+               const std::vector<std::uint64_t>& id, FoamTopology& out, std::size_t cutters = 0);
 
  private:
   struct Internals;

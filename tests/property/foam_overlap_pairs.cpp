@@ -36,6 +36,16 @@ PairSet listedOverlaps(const Balls& balls, const OverlapPairs& list) {
   return pairs;
 }
 
+/// A list that has seen its balls at rest, and gives them room to move.
+OverlapPairs roomyList(Balls balls) {
+  OverlapPairs list;
+  for (int motion = 0; motion < 3; ++motion) {
+    list.update(balls.position, balls.radius);
+    balls.position[0].x() += (motion < 2 ? 0.1 : -0.2) * OverlapPairs::kSkin * balls.radius[0];
+  }
+  return list;
+}
+
 /// Each pair has a number that its two rows know and no other pair has.
 void expectNumbered(const OverlapPairs& list) {
   std::vector<std::pair<int, int>> ranks(list.slots() / 2, {-1, -1});
@@ -66,11 +76,12 @@ TEST(OverlapPairs, BallsThatMayComeToLieInOthersAreNoted) {
   const Balls balls = randomFoam(600, 1.2, 30, 0.9, 23);
   OverlapPairs list;
   list.update(balls.position, balls.radius);
+  const auto skin = OverlapPairs::kNoSkin;
   PairSet expected, noted;
   for (int i = 0; i < static_cast<int>(balls.size()); ++i)
     for (int j = 0; j < static_cast<int>(balls.size()); ++j) {
       const double own = balls.radius[i], other = balls.radius[j];
-      const double spare = other - own + OverlapPairs::kSkin * (own + other);
+      const double spare = other - own + skin * (own + other);
       if (i != j && (balls.position[i] - balls.position[j]).norm() <= spare) expected.insert({i, j});
     }
   for (const auto& [inner, outer] : list.nestings()) noted.insert({list.order()[inner], list.order()[outer]});
@@ -111,8 +122,7 @@ TEST(OverlapPairs, FarFromTheOriginNothingIsLost) {
 
 TEST(OverlapPairs, IsKeptWhileBubblesStayWithinTheSkinAndStillComplete) {
   Balls balls = randomFoam(500, 0.6, 5, 0.9, 11);
-  OverlapPairs list;
-  list.update(balls.position, balls.radius);
+  OverlapPairs list = roomyList(balls);
   for (std::size_t i = 0; i < balls.size(); ++i) {
     CounterRandom random(5, i, 3);
     const Eigen::Vector3d direction(random.uniform() - .5, random.uniform() - .5, random.uniform() - .5);
@@ -127,13 +137,46 @@ TEST(OverlapPairs, IsKeptWhileBubblesStayWithinTheSkinAndStillComplete) {
 
 TEST(OverlapPairs, ACommonDriftKeepsTheList) {
   Balls balls = randomFoam(500, 0.6, 5, 0.9, 17);
-  OverlapPairs list;
-  list.update(balls.position, balls.radius);
+  OverlapPairs list = roomyList(balls);
   for (auto& x : balls.position) x += Eigen::Vector3d(3, -40, 7);  // many radii
   EXPECT_FALSE(list.update(balls.position, balls.radius));
   EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
   balls.position[3].x() += 2 * OverlapPairs::kSkin * balls.radius[3];
   EXPECT_TRUE(list.update(balls.position, balls.radius));
+}
+
+TEST(OverlapPairs, ThereIsRoomToMoveOnceBallsHaveMovedLittleTwice) {
+  Balls balls = randomFoam(500, 0.6, 5, 0.9, 37);
+  OverlapPairs list;
+  const auto isRenewedAfter = [&](double radii) {
+    balls.position[3].x() += radii * balls.radius[3];
+    const bool renewed = list.update(balls.position, balls.radius);
+    EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+    return renewed;
+  };
+  EXPECT_TRUE(isRenewedAfter(0));
+  const std::size_t tight = list.slots();
+  EXPECT_FALSE(isRenewedAfter(0));
+  EXPECT_TRUE(isRenewedAfter(0.03));
+  EXPECT_TRUE(isRenewedAfter(0.03));
+  EXPECT_GT(list.slots(), 1.2 * tight);
+  EXPECT_FALSE(isRenewedAfter(0.03));
+  EXPECT_TRUE(isRenewedAfter(2));
+  EXPECT_LT(list.slots(), 1.1 * tight);
+}
+
+TEST(OverlapPairs, StrangersDoNotKnowEachOther) {
+  const Balls balls = randomFoam(400, 0.9, 5, 0.9, 41);
+  constexpr std::size_t kStrangers = 150;
+  OverlapPairs list;
+  list.update(balls.position, balls.radius, kStrangers);
+  PairSet expected;
+  for (const auto& [i, j] : allOverlaps(balls))
+    if (i < static_cast<int>(balls.size() - kStrangers)) expected.insert({i, j});
+  EXPECT_EQ(listedOverlaps(balls, list), expected);
+  expectNumbered(list);
+  EXPECT_TRUE(list.update(balls.position, balls.radius, 0));
+  EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
 }
 
 TEST(OverlapPairs, ACopyGoesOnByItself) {

@@ -157,5 +157,33 @@ TEST(PowerCells, HistoryDoesNotChangeABit) {
   expectSameBits(out, powerCellsOf(end));
 }
 
+TEST(PowerCells, CuttersCutAndAreNoBubbles) {
+  /// Sums over some ten films, and the other ball of the pair cutting their discs.
+  constexpr double kRoundOff = 1e-13;
+  constexpr std::size_t kCutters = 120;
+  const Balls balls = randomFoam(400, .5, 4, 1.2, 9);
+  const std::size_t bubbles = balls.size() - kCutters;
+  const FoamTopology all = powerCellsOf(balls);
+  FoamTopology cut;
+  PowerCells().compute(balls.position, balls.radius, balls.id, cut, kCutters);
+  ASSERT_EQ(cut.volume.size(), bubbles);
+  std::vector<std::pair<int, int>> expected, films;
+  std::vector<double> filmArea(bubbles, 0);
+  for (const Film& film : all.films)
+    if (film.j < static_cast<int>(bubbles)) {
+      expected.emplace_back(film.i, film.j);
+      filmArea[film.i] += film.area, filmArea[film.j] += film.area;
+    }
+  for (const Film& film : cut.films) films.emplace_back(film.i, film.j);
+  EXPECT_EQ(films, expected);
+  for (std::size_t i = 0; i < bubbles; ++i) {
+    const double r = balls.radius[i];
+    EXPECT_NEAR(cut.volume[i], all.volume[i], kRoundOff * ballVolume(r));
+    EXPECT_NEAR(cut.freeArea[i], all.freeArea[i], kRoundOff * 4 * std::numbers::pi * r * r);
+    EXPECT_NEAR(cut.filmArea[i], filmArea[i], kRoundOff * 4 * std::numbers::pi * r * r);
+    EXPECT_EQ(cut.hidden[i], all.hidden[i]);
+  }
+}
+
 }  // namespace
 }  // namespace spume::foam::test

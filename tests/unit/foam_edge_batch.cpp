@@ -32,10 +32,12 @@ CuttingPlanes polygonOf(int sides, double distance) {
 }
 
 bool addTo(EdgeBatch& batch, const CuttingPlanes& planes, FilmShape& film) {
+  constexpr std::int32_t kFace = 0;
   DiscLines lines;
-  if (!lines.find(planes, 0, kRadius)) return false;
+  lines.find(planes, {&kFace, 1}, kRadius);
+  if (!lines.isLeft(0)) return false;
   lines.scale();
-  return batch.add(lines, kBalls, film);
+  return batch.add(lines, 0, kBalls, film);
 }
 
 FilmShape alone(const CuttingPlanes& planes) {
