@@ -141,13 +141,13 @@ void FoamSolver::Internals::findWalls(const LiquidSampler& liquid) {
 
 void FoamSolver::Internals::measure() {
   cells.compute(next, walls, topology);
+  cells.listNeighbours(neighbours);
   topologyId = next.id;
-  neighbours.build(next.size(), topology.overlaps);
 }
 
 /// Corrects the radii where the bubbles have come to, until every cell holds its gas.
 void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
-  around.sample(liquid, next.positions());
+  around.sampleSolids(liquid, next.positions());
   findWalls(liquid);
   for (int pass = 0;; ++pass) {
     measure();

@@ -71,6 +71,7 @@ struct PowerCells::Internals {
   RawBuffer<Row> rows;                ///< by rank
   RawBuffer<PairFilm> film;           ///< by number of the pair, of those that overlap
   RawBuffer<std::int32_t> bare;       ///< by input index: overlaps without film with this bubble as i
+  RawBuffer<std::int32_t> listed;     ///< by number of the pair: its place in the topology
   RawBuffer<std::int32_t> firstPair;  ///< by input index: first overlap with this bubble as i
   RawBuffer<std::int32_t> firstFilm;  ///< by input index: first film with this bubble as i
   tbb::enumerable_thread_specific<Scratch> scratch;
@@ -93,7 +94,8 @@ struct PowerCells::Internals {
   void numberPairs(FoamTopology& out);
   void measureCells(FoamTopology& out);
   void measureCell(std::int32_t s, FoamTopology& out) const;
-  void listRow(std::int32_t s, FoamTopology& out) const;
+  void listRow(std::int32_t s, FoamTopology& out);
+  void listNeighbours(Neighbours& out) const;
 };
 
 void PowerCells::Internals::load(const std::vector<Vector>& position, const std::vector<double>& trueRadius,
@@ -102,7 +104,7 @@ void PowerCells::Internals::load(const std::vector<Vector>& position, const std:
   bubbles = size() - static_cast<std::int32_t>(cutters);
   const auto n = static_cast<std::size_t>(size());
   balls.resize(n), rows.resize(n), bare.resize(n), firstPair.resize(n + 1), firstFilm.resize(n + 1);
-  overlap.resize(near.slots()), film.resize(near.slots() / 2);
+  overlap.resize(near.slots()), film.resize(near.slots() / 2), listed.resize(near.slots() / 2);
   forEachBubble(size(), [&](std::int32_t s) {
     const std::int32_t i = near.order()[s];
     balls[s] = {position[i].x(), position[i].y(), position[i].z(), TieBrokenBall(trueRadius[i], id[i]), 1, i};
@@ -257,18 +259,34 @@ void PowerCells::Internals::measureCell(std::int32_t s, FoamTopology& out) const
 }
 
 /// Writes out the pairs and films of which the bubble is the first.
-void PowerCells::Internals::listRow(std::int32_t s, FoamTopology& out) const {
+void PowerCells::Internals::listRow(std::int32_t s, FoamTopology& out) {
   const std::int32_t i = balls[s].index;
   std::int32_t nextPair = firstPair[i], nextFilm = firstFilm[i];
   for (std::int32_t k = rows[s].lower; k < rows[s].bubbles; ++k) {
     const auto [j, link] = row(s)[k];
     const PairFilm& pair = film[link / 2];
+    listed[link / 2] = nextPair;
     out.overlaps[nextPair++] = {i, j, pair.distance, pair.exists() ? nextFilm : -1};
     if (!pair.exists()) continue;
     const double height =
         link % 2 ? pair.height + pair.shape.heightShift : pair.farHeight - pair.shape.heightShift;
     out.films[nextFilm++] = {i, j, pair.distance, height, pair.shape.trueArea()};
   }
+}
+
+void PowerCells::Internals::listNeighbours(Neighbours& out) const {
+  out.start.resize(static_cast<std::size_t>(bubbles) + 1);
+  out.start[0] = 0;
+  for (std::int32_t i = 0; i < bubbles; ++i) out.start[i + 1] = out.start[i] + rows[near.rank()[i]].bubbles;
+  out.other.resize(out.start[bubbles]), out.pair.resize(out.start[bubbles]);
+  forEachBubble(size(), [&](std::int32_t s) {
+    const std::int32_t i = balls[s].index;
+    if (i >= bubbles) return;
+    for (std::int32_t k = 0; k < rows[s].bubbles; ++k) {
+      const auto [other, link] = row(s)[k];
+      out.other[out.start[i] + k] = other, out.pair[out.start[i] + k] = listed[link / 2];
+    }
+  });
 }
 
 PowerCells::PowerCells() : internals_(std::make_unique<Internals>()) {}
@@ -285,5 +303,7 @@ void PowerCells::compute(const std::vector<Eigen::Vector3d>& position, const std
   internals_->numberPairs(out);
   internals_->measureCells(out);
 }
+
+void PowerCells::listNeighbours(Neighbours& out) const { internals_->listNeighbours(out); }
 
 }  // namespace spume::foam

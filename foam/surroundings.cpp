@@ -16,22 +16,28 @@ void requireFinite(const Field& field, const char* name) {
 }  // namespace
 
 void Surroundings::sample(const LiquidSampler& liquid, Points x) {
+  sampleSolids(liquid, x);
   const Eigen::Index n = x.cols();
-  phi.resize(n), psi.resize(n), solid.resize(n);
-  for (auto* field : {&gradPhi, &liquidVelocity, &gradPressure, &gradPsi, &solidVelocity})
-    field->resize(3, n);
+  phi.resize(n);
+  for (auto* field : {&gradPhi, &liquidVelocity, &gradPressure}) field->resize(3, n);
   if (n == 0) return;
   liquid.phi(x, phi);
   liquid.gradPhi(x, gradPhi);
   liquid.velocity(x, liquidVelocity);
   liquid.gradPressure(x, gradPressure);
+  requireFinite(phi, "phi"), requireFinite(gradPhi, "gradPhi");
+  requireFinite(liquidVelocity, "velocity"), requireFinite(gradPressure, "gradPressure");
+}
+
+void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
+  const Eigen::Index n = x.cols();
+  psi.resize(n), gradPsi.resize(3, n), solidVelocity.resize(3, n), solid.resize(n);
+  if (n == 0) return;
   liquid.psi(x, psi);
   liquid.gradPsi(x, gradPsi);
   liquid.solidVelocity(x, solidVelocity);
   liquid.solidIndex(x, solid);
-  requireFinite(phi, "phi"), requireFinite(gradPhi, "gradPhi"), requireFinite(psi, "psi");
-  requireFinite(liquidVelocity, "velocity"), requireFinite(gradPressure, "gradPressure");
-  requireFinite(gradPsi, "gradPsi"), requireFinite(solidVelocity, "solidVelocity");
+  requireFinite(psi, "psi"), requireFinite(gradPsi, "gradPsi"), requireFinite(solidVelocity, "solidVelocity");
 }
 
 }  // namespace spume::foam

@@ -20,6 +20,8 @@ struct Surroundings {
   /// Samples everything at `x`. Throws NumericalFailure if the sampler answers with a number that is not
   /// finite.
   void sample(const LiquidSampler& liquid, Points x);
+  /// The same of the solids alone; what is of the liquid has no meaning then.
+  void sampleSolids(const LiquidSampler& liquid, Points x);
 };
 
 }  // namespace spume::foam

@@ -22,9 +22,26 @@ class PartReplacer {
                const std::vector<std::uint8_t>& whole, FoamTopology& all);
 
  private:
-  void keep(const OverlapPair& pair, std::int32_t i, std::int32_t j, const FoamTopology& from);
+  /// What the pairs of some rows, one after the other, are put together from, and where they go.
+  struct Piece {
+    std::size_t known, fresh;     ///< first pair of the whole, and of the part
+    std::size_t overlaps, films;  ///< first place; how many, while they are counted
+  };
+  /// What is put together.
+  struct Sources {
+    const FoamTopology &all, &part;
+    const std::vector<std::int32_t>& rows;
+    const std::vector<std::uint8_t>& whole;
+  };
+
+  void takeColumns(const Sources& from, FoamTopology& all);
+  void cutPieces(const Sources& from);
+  template <typename Keep>
+  void merge(const Sources& from, std::size_t piece, const Keep& keep) const;
+  void write(const Sources& from, std::size_t piece);
 
   std::vector<std::uint8_t> isWhole_;  ///< by row of the foam
+  std::vector<Piece> pieces_;          ///< and the end of the last
   std::vector<OverlapPair> overlaps_;
   std::vector<Film> films_;
 };

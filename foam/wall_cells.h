@@ -27,6 +27,8 @@ class WallCells {
   /// wholly behind a plane has volume and areas 0. `walls`: within a radius of each bubble, or empty where
   /// none is cut; that costs as much as PowerCells.
   void compute(const BubbleStore& bubbles, const std::vector<NearWalls>& walls, FoamTopology& out);
+  /// As PowerCells::listNeighbours.
+  void listNeighbours(Neighbours& out) const { cells_.listNeighbours(out); }
 
  private:
   void addPlanes(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
