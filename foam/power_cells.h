@@ -27,8 +27,7 @@ class PowerCells {
   /// lengths differ, or a position or radius is not finite or a radius not positive.
   void compute(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
                const std::vector<std::uint64_t>& id, FoamTopology& out, std::size_t cutters = 0);
-  /// The overlapping pairs of the last call as Neighbours::build would give them, without going through all
-  /// pairs on one thread each.
+  /// The overlapping pairs of the last call as Neighbours::build would give them, in parallel row by row.
   void listNeighbours(Neighbours& out) const;
 
  private:
