@@ -1,8 +1,12 @@
 #include "coupling/vdb_file.h"
 
+#include <array>
+#include <bit>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <vector>
 
 #include "coupling/atomic_file.h"
 
@@ -20,6 +24,44 @@ class StreamArchive : public openvdb::io::Archive {
     Archive::write(stream, grids, kSeekable, openvdb::MetaMap());
   }
 };
+
+/// Where a VDB file keeps the identity that OpenVDB draws at random: behind magic number, three versions and
+/// the flag for offsets.
+constexpr std::streamoff kIdentityPlace = 8 + 3 * 4 + 1;
+constexpr std::size_t kIdentityLength = 36;
+
+/// Two 64-bit checksums of all that follows the identity.
+std::array<std::uint64_t, 2> sumsOf(std::istream& file) {
+  std::array<std::uint64_t, 2> sums{0xcbf29ce484222325ull, 0x9e3779b97f4a7c15ull};
+  std::vector<std::uint64_t> words(1 << 16);
+  file.seekg(kIdentityPlace + static_cast<std::streamoff>(kIdentityLength));
+  while (file) {
+    std::fill(words.begin(), words.end(), 0);
+    file.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 8));
+    for (std::size_t n = 0; 8 * n < static_cast<std::size_t>(file.gcount()); ++n) {
+      sums[0] = std::rotl((sums[0] ^ words[n]) * 0x100000001b3ull, 29);
+      sums[1] = std::rotl((sums[1] ^ words[n]) * 0xff51afd7ed558ccdull, 31);
+    }
+  }
+  return sums;
+}
+
+/// Files of the same grids are to have the same bytes, so the identity is made from the contents.
+void makeReproducible(const std::string& path) {
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  const auto [a, b] = sumsOf(file);
+  const auto part = [](std::uint64_t sum, int shift, std::uint64_t mask) {
+    return static_cast<unsigned long long>(sum >> shift & mask);
+  };
+  char identity[kIdentityLength + 1];
+  std::snprintf(identity, sizeof identity, "%08llx-%04llx-%04llx-%04llx-%012llx", part(a, 32, 0xffffffff),
+                part(a, 16, 0xffff), part(a, 0, 0xffff), part(b, 48, 0xffff), part(b, 0, 0xffffffffffff));
+  file.clear();
+  file.seekp(kIdentityPlace);
+  file.write(identity, kIdentityLength);
+  file.close();
+  if (!file) throw FileError(path + ": cannot write: " + std::strerror(errno ? errno : EIO));
+}
 
 template <typename Value>
 Value metaOr(const openvdb::GridBase& grid, const std::string& name, Value fallback) {
@@ -50,6 +92,7 @@ void writeVdb(const std::string& path, const openvdb::GridCPtrVec& grids) {
     if (stream) StreamArchive().writeTo(stream, grids);
     stream.close();
     if (!stream) throw FileError(path + ": cannot write: " + std::strerror(errno ? errno : EIO));
+    makeReproducible(temporary);
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 
 #include "coupling/atomic_file.h"
@@ -151,6 +153,27 @@ TEST(LiquidCache, FrameReadsBack) {
   EXPECT_EQ(frame.liquid.phi(8, 5, 5), liquid.phi(8, 5, 5));
   EXPECT_EQ(frame.liquid.velocity[1](8, 5, 5), 0.25f);
   std::remove(path.c_str());
+}
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(LiquidCache, TheSameFrameMakesTheSameBytesAndAnotherDoesNot) {
+  fluid::LiquidState liquid = pool();
+  fluid::SolidBoundary solids;
+  solids.psi = fluid::DenseField<float>(liquid.grid.cells, 0.125f);
+  const std::string a = fileIn("same_a.vdb"), b = fileIn("same_b.vdb"), c = fileIn("other.vdb");
+  writeLiquidFrame(a, liquid, solids, kStamp, {});
+  writeLiquidFrame(b, liquid, solids, kStamp, {});
+  liquid.velocity[1](8, 5, 5) = 0.5f;
+  writeLiquidFrame(c, liquid, solids, kStamp, {});
+  EXPECT_FALSE(bytesOf(a).empty());
+  EXPECT_EQ(bytesOf(a), bytesOf(b));
+  constexpr std::size_t kIdentity = 21, kLength = 36;  // where OpenVDB keeps the identity of a file
+  EXPECT_NE(bytesOf(a).substr(kIdentity, kLength), bytesOf(c).substr(kIdentity, kLength));
+  for (const std::string& path : {a, b, c}) std::remove(path.c_str());
 }
 
 TEST(LiquidCache, LiquidBehindAThinWallStaysThere) {
