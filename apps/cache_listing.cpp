@@ -61,6 +61,17 @@ std::string describeFrames(const CacheListing& listing) {
   return count == std::size_t(last - first) + 1 ? range : range + " (" + std::to_string(count) + " files)";
 }
 
+std::string describeNumbers(const std::vector<int>& numbers) {
+  std::string text;
+  for (std::size_t begin = 0, end; begin < numbers.size(); begin = end) {
+    end = begin + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    text += (text.empty() ? "" : ", ") + std::to_string(numbers[begin]);
+    if (end - begin > 1) text += "-" + std::to_string(numbers[end - 1]);
+  }
+  return text;
+}
+
 double cachedLiquidVolume(const coupling::LiquidFrame& frame) {
   const fluid::GridSpec& grid = frame.liquid.grid;
   const fluid::DenseField<float> phi = withGhosts(frame.liquid.phi);

@@ -22,6 +22,9 @@ CacheListing listCache(const std::string& folder, const std::string& stem, const
 /// "1-150" or "1-150 (148 files)" where numbers are missing; "none" for an empty listing.
 std::string describeFrames(const CacheListing& listing);
 
+/// "3, 7-9": numbers that ascend, runs of neighbours as ranges.
+std::string describeNumbers(const std::vector<int>& numbers);
+
 /// Volume of the grid liquid of a cached frame [m^3], solids left out.
 double cachedLiquidVolume(const coupling::LiquidFrame& frame);
 

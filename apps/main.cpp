@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -81,7 +82,17 @@ int parseAndPerform(int argc, char** argv) {
   return perform(action);
 }
 
+/// What was printed may have gone into a file on a full disk: the code says so where nothing worse did.
+int codeAfterPrinting(int code) {
+  const bool printed = std::cout.flush() && std::fflush(stdout) == 0 && !std::ferror(stdout);
+  if (printed) return code;
+  std::cerr << "spume: standard output: cannot write" << std::endl;
+  return code == kDone ? kInputOutput : code;
+}
+
 }  // namespace
 }  // namespace spume::apps
 
-int main(int argc, char** argv) { return spume::apps::parseAndPerform(argc, argv); }
+int main(int argc, char** argv) {
+  return spume::apps::codeAfterPrinting(spume::apps::parseAndPerform(argc, argv));
+}

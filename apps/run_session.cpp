@@ -11,6 +11,8 @@
 #include "apps/progress.h"
 #include "apps/stop_request.h"
 #include "coupling/checkpoint.h"
+#include "coupling/folder_lock.h"
+#include "coupling/kept_steps.h"
 #include "coupling/probes.h"
 #include "coupling/run_folder.h"
 #include "coupling/scene_builder.h"
@@ -37,6 +39,7 @@ class Session {
 
  private:
   bool finished() const { return simulation_->frame() >= options_.scene.time.frames; }
+  void recall(int step, int frame);
   void begin();
   void advance(Progress& progress, const StopRequest& stop);
   void writeCheckpoint();
@@ -46,10 +49,12 @@ class Session {
   const SessionOptions& options_;
   const Clock::time_point start_ = Clock::now();
   coupling::RunFolder folder_;
+  const coupling::FolderLock lock_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<coupling::StatisticsWriter> statistics_;
   std::unique_ptr<Log> log_;
   coupling::RunSummary summary_;
+  std::vector<StepReport> begun_;  ///< steps a resumed run has behind it of the frame it goes on in
 };
 
 /// Checks what can be checked without a folder, then makes the folder.
@@ -58,7 +63,8 @@ coupling::RunFolder prepareFolder(const SessionOptions& options) {
   return coupling::RunFolder(options.folder);
 }
 
-Session::Session(const SessionOptions& options) : options_(options), folder_(prepareFolder(options)) {
+Session::Session(const SessionOptions& options)
+    : options_(options), folder_(prepareFolder(options)), lock_(folder_.root()) {
   std::optional<coupling::LoadedCheckpoint> loaded;
   if (!options.restart) loaded = coupling::readNewestCheckpoint(folder_.checkpoints(), options.scene);
   int step = 0, frame = 0;
@@ -76,10 +82,22 @@ Session::Session(const SessionOptions& options) : options_(options), folder_(pre
     if (!finished()) log_->say("going on from " + loaded->path);
   }
   folder_.writeScene(options.scene);
+  recall(step, frame);
   statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame,
                                                              coupling::probeColumns(options.scene));
   summary_.threads = options.threads;
   summary_.switchedOff = coupling::switchedOff(options.scene);
+}
+
+/// Takes up the totals of a run that had got to `step` and had finished `frame`.
+void Session::recall(int step, int frame) {
+  if (step == 0) return;
+  FrameReport finished{.frame = frame, .time = frame / options_.scene.time.fps, .steps = {}};
+  const double kRoundOff = 1e-9;
+  for (StepReport& report : coupling::readKeptSteps(folder_.root() + "/steps.csv", step))
+    (report.time <= finished.time * (1 + kRoundOff) ? finished.steps : begun_).push_back(std::move(report));
+  coupling::accumulate(summary_, finished);
+  summary_.frames = frame;
 }
 
 void Session::begin() {
@@ -98,7 +116,7 @@ void Session::begin() {
 void Session::advance(Progress& progress, const StopRequest& stop) {
   const Clock::time_point start = Clock::now();
   const int frame = simulation_->frame() + 1;
-  const FrameReport report = simulation_->advanceFrame([&](const StepReport& step) {
+  FrameReport report = simulation_->advanceFrame([&](const StepReport& step) {
     statistics_->add(step);
     progress.step(frame, step);
     if (step.halvings > 0)
@@ -106,6 +124,8 @@ void Session::advance(Progress& progress, const StopRequest& stop) {
                   " times");
     stop.check();
   });
+  report.steps.insert(report.steps.begin(), begun_.begin(), begun_.end());
+  begun_.clear();
   statistics_->add(report);
   coupling::accumulate(summary_, report);
   writeFrame(folder_, *simulation_);
@@ -132,6 +152,8 @@ void Session::finish() {
     if (!problem.empty()) log_->say(problem);
   }
   writeSummary("done");
+  const std::string problem = coupling::volumeWarning(summary_, simulation_->liquid().grid.cellVolume());
+  if (!problem.empty()) log_->say("warning: " + problem);
   log_->say("done: frame " + std::to_string(simulation_->frame()) + " after " +
             formatDuration(secondsSince(start_)) + ", " + std::to_string(simulation_->bubbles().size()) +
             " bubbles; see " + folder_.root());

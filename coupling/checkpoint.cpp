@@ -174,7 +174,8 @@ std::optional<LoadedCheckpoint> readNewestCheckpoint(const std::string& folder, 
     }
   }
   if (paths.empty()) return std::nullopt;
-  throw FileError("no checkpoint can be read: " + loaded.warnings.front());
+  throw FileError("no checkpoint can be read: " + loaded.warnings.front() +
+                  "; start anew (--restart), or give the run another folder");
 }
 
 std::vector<std::string> sceneDifferences(const std::string& there, const std::string& here) {

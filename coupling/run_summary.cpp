@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "coupling/atomic_file.h"
@@ -95,6 +97,7 @@ JsonObject totals(const RunSummary& summary) {
       .add("bubbles", static_cast<double>(summary.bubbles))
       .add("most_bubbles", static_cast<double>(summary.mostBubbles))
       .add("liquid_volume", summary.liquidVolume)
+      .add("target_volume", summary.targetVolume)
       .add("poured", summary.poured)
       .add("drained", summary.drained)
       .add("gas", gasTotals(summary.gas));
@@ -114,6 +117,7 @@ void accumulate(RunSummary& summary, const StepReport& step) {
   summary.mostBubbles = std::max(summary.mostBubbles, summary.bubbles);
   summary.gas = step.gas;
   summary.liquidVolume = step.liquid.liquidVolume;
+  summary.targetVolume = step.liquid.targetVolume;
   summary.poured = step.poured;
   summary.drained = step.drained;
   summary.stageSeconds["liquid"] += step.secondsLiquid;
@@ -132,6 +136,19 @@ void accumulate(RunSummary& summary, const FrameReport& frame) {
   summary.simulatedTime = frame.time;
   summary.wallSeconds += frame.seconds;
   for (const StepReport& step : frame.steps) accumulate(summary, step);
+}
+
+std::string volumeWarning(const RunSummary& summary, double cellVolume) {
+  constexpr double kTolerated = 0.05;  // of what it should hold; sound scenes stay within 1 %
+  constexpr double kFewCells = 10;     // are no loss worth a word
+  const double error = summary.liquidVolume - summary.targetVolume;
+  if (std::abs(error) <= std::max(kTolerated * summary.targetVolume, kFewCells * cellVolume)) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "the liquid ends with " << summary.liquidVolume << " m^3 instead of " << summary.targetVolume
+       << " m^3 (volume_drift in steps.csv says when); see that solids leave it room, that walls are a cell "
+          "thick, and raise domain.resolution where sheets are thinner than cells";
+  return text.str();
 }
 
 std::vector<std::string> switchedOff(const Scene& scene) {

@@ -19,13 +19,17 @@ struct RunSummary {
   double simulatedTime = 0, wallSeconds = 0;  ///< [s]; wall time of the frames
   std::size_t births = 0, bursts = 0, bubbles = 0, mostBubbles = 0;
   GasLedger gas;
-  double liquidVolume = 0, poured = 0, drained = 0;  ///< [m^3]
-  std::vector<std::string> switchedOff;              ///< features the scene does not ask for
+  double liquidVolume = 0, targetVolume = 0, poured = 0, drained = 0;  ///< [m^3]
+  std::vector<std::string> switchedOff;        ///< features the scene does not ask for
   std::map<std::string, double> stageSeconds;  ///< "liquid", "foam", "entrainment" and each of their stages
 };
 
-/// Adds a frame to the totals. A resumed run counts from its resume.
+/// Adds a frame to the totals.
 void accumulate(RunSummary& summary, const FrameReport& frame);
+
+/// What to say where the grid liquid ended far from what it should hold; empty where it did not. `cellVolume`
+/// [m^3] is that of the grid.
+std::string volumeWarning(const RunSummary& summary, double cellVolume);
 
 /// Features of the program that this scene leaves out, in words.
 std::vector<std::string> switchedOff(const Scene& scene);

@@ -92,6 +92,27 @@ PreviewStyle styleNamed(const std::string& name) {
                                    kStyleNames.begin());
 }
 
+/// Says which frames asked for cannot be drawn, or are drawn without their bubbles, because a cache lacks
+/// them. Where no frames were asked for, those between the first and the last cached one are.
+void warnOfGaps(const coupling::Scene& scene, const std::string& folder, const CacheListing& cache, int first,
+                int last) {
+  if (cache.frames.empty()) return;
+  if (last == std::numeric_limits<int>::max()) first = cache.frames.front(), last = cache.frames.back();
+  std::vector<int> absent, bare;
+  const int every = scene.output.every;
+  for (int frame = (first + every - 1) / every * every; frame <= last; frame += every)
+    if (!std::binary_search(cache.frames.begin(), cache.frames.end(), frame)) absent.push_back(frame);
+  for (std::size_t f = 0; f < cache.frames.size(); ++f) {
+    const std::string path = siblingOf(folder, "bubbles", cache.paths[f]);
+    const bool drawn = cache.frames[f] >= first && cache.frames[f] <= last;
+    if (drawn && !fs::exists(path + ".vdb") && !fs::exists(path + ".ply")) bare.push_back(cache.frames[f]);
+  }
+  if (!absent.empty())
+    std::cout << "warning: no cached liquid for " << describeNumbers(absent) << ": left out" << std::endl;
+  if (!bare.empty())
+    std::cout << "warning: no cached bubbles for " << describeNumbers(bare) << ": drawn without" << std::endl;
+}
+
 /// Draws one cached frame.
 void renderFrame(const coupling::Scene& scene, const std::string& folder, const std::string& liquidPath,
                  const PreviewSettings& settings, const std::string& path) {
@@ -122,6 +143,7 @@ int render(const RenderOptions& options) {
     renderFrame(scene, options.folder, cache.paths[f], settings, path);
     std::cout << path << std::endl;
   }
+  if (done > 0) warnOfGaps(scene, options.folder, cache, first, last);
   if (done == 0)
     throw coupling::SceneError(options.folder + ": no cached liquid in these frames; it holds " +
                                describeFrames(cache));

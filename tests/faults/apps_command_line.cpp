@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <utility>
 
+#include "coupling/folder_lock.h"
 #include "tests/support/apps_program.h"
 
 namespace spume::apps::test {
@@ -81,6 +83,41 @@ TEST(CommandLine, UnwritableOutputLeavesNothing) {
   const std::string file = scratch.write("a_file", "kept\n");
   expectRefused(runSpume("run " + scene + " -o " + file + "/out"), 4, "a_file");
   EXPECT_EQ(contentsOf(file), "kept\n");
+}
+
+TEST(CommandLine, PrintingOnAFullDiskIsAnOutputError) {
+  const Scratch scratch;
+  const std::string check = "check " + scratch.write("sound.toml", kSound);
+  EXPECT_EQ(runSpume(check + " >/dev/full 2>/dev/null || exit $?").code, 4);
+}
+
+TEST(CommandLine, AFolderAnotherRunWritesToIsRefused) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("sound.toml", kSound);
+  std::filesystem::create_directories(scratch / "out");
+  {
+    const coupling::FolderLock other(scratch / "out");
+    expectRefused(runSpume("run " + scene + " --frames 1 --no-preview -o " + (scratch / "out")), 4,
+                  "another run");
+  }
+  EXPECT_EQ(runSpume("run " + scene + " --frames 1 --no-preview -o " + (scratch / "out")).code, 0);
+}
+
+TEST(CommandLine, PicturesOfAnIncompleteCacheSayWhatIsMissing) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("sound.toml", kSound), out = scratch / "out";
+  ASSERT_EQ(runSpume("run " + scene + " --frames 4 --no-preview -o " + out).code, 0);
+  std::filesystem::remove(out + "/liquid/liquid.0002.vdb");
+  std::filesystem::remove(out + "/bubbles/bubbles.0003.vdb");
+  std::filesystem::remove(out + "/bubbles/bubbles.0003.ply");
+  const std::string render = "render " + out + " --size 16x16 --samples 1";
+  for (const auto& [frames, missing] :
+       {std::pair{"", "liquid for 2:"}, {" --frames 2-7", "liquid for 2, 5-7:"}}) {
+    const Outcome outcome = runSpume(render + frames);
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    EXPECT_NE(outcome.output.find(missing), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("bubbles for 3: drawn without"), std::string::npos) << outcome.output;
+  }
 }
 
 TEST(CommandLine, RunOfABadSceneCreatesNoFolder) {
