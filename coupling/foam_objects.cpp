@@ -12,6 +12,9 @@
 namespace spume::coupling {
 namespace {
 
+// A file of bubbles may hold what the keys of [[bubbles]] may.
+constexpr double kFastest = 100;    // [m/s]
+constexpr double kSmallest = 1e-6;  // [m]
 constexpr std::uint64_t kProbePurpose = 0x736f757263650001;
 constexpr int kRoomProbes = 2000;  // points that look for room in a source: finds a share of 0.3 % for sure
 
@@ -59,6 +62,12 @@ void checkBubbles(const Scene& scene, const Box& domain, const SignedDistance& p
     if (!domain.holds(bubble.position))
       throw SceneError(place() + ": position " + text(bubble.position) + " lies outside " + domain.words() +
                        "; move the bubble or the domain");
+    if (!(bubble.velocity.cwiseAbs().maxCoeff() <= kFastest))
+      throw SceneError(place() + ": velocity " + text(bubble.velocity) + " m/s; each allowed: " +
+                       exactText(-kFastest) + " to " + exactText(kFastest) + " [m/s]");
+    if (bubble.radius < kSmallest)
+      throw SceneError(place() + ": radius " + exactText(bubble.radius) +
+                       " m; allowed: " + exactText(kSmallest) + " m or more");
     if (2 * bubble.radius > widest)
       throw SceneError(place() + ": radius " + exactText(bubble.radius) +
                        " m: the bubble is larger than the domain; at most " + exactText(widest / 2) + " m");

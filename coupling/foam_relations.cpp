@@ -12,7 +12,7 @@ namespace {
 
 std::optional<Conflict> radiusConflict(const std::string& table, const foam::RadiusDistribution& radius) {
   const auto cut =
-      " m: min_radius " + exactText(radius.least) + ", max_radius " + exactText(radius.most) + " m";
+      ": min_radius " + exactText(radius.least) + ", max_radius " + exactText(radius.most) + " [m]";
   if (radius.least > radius.most)
     return Conflict{table + "min_radius", "= " + exactText(radius.least) + " exceeds " + table +
                                               "max_radius = " + exactText(radius.most) + " [m]"};

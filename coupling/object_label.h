@@ -24,13 +24,28 @@ class ObjectError : public SceneError {
   std::string key_;
 };
 
-/// Calls check(); what it throws as SceneError becomes an ObjectError of that item.
+/// A file of such an item that cannot be read.
+class ObjectFileError : public FileError {
+ public:
+  ObjectFileError(std::string key, const std::string& message) : FileError(message), key_(std::move(key)) {}
+  const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
+/// Calls check(); what it throws as SceneError or FileError becomes an ObjectError or ObjectFileError of that
+/// item, its message headed by `label` where that is not in it yet.
 template <typename Check>
-void checkItem(const std::string& table, std::size_t item, const Check& check) {
+void checkItem(const std::string& table, std::size_t item, const Check& check,
+               const std::string& label = "") {
+  const std::string key = table + "." + std::to_string(item), head = label.empty() ? "" : label + ": ";
   try {
     check();
   } catch (const SceneError& error) {
-    throw ObjectError(table + "." + std::to_string(item), error.what());
+    throw ObjectError(key, head + error.what());
+  } catch (const FileError& error) {
+    throw ObjectFileError(key, head + error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "coupling/object_label.h"
 #include "coupling/shapes.h"
 #include "coupling/solid_files.h"
 #include "coupling/solid_motion.h"
@@ -14,8 +15,9 @@
 namespace spume::coupling {
 namespace {
 
-constexpr int kFewestCells = 4;     // along an edge: the stencils of the solver overlap on fewer
-constexpr double kNozzleCells = 3;  // [dx] length of an inflow's region, so that no sub-step empties it
+constexpr int kFewestCells = 4;       // along an edge: the stencils of the solver overlap on fewer
+constexpr double kLargestSolid = 20;  // of a file, over the domain: larger ones are in another unit
+constexpr double kNozzleCells = 3;    // [dx] length of an inflow's region, so that no sub-step empties it
 
 ShapeSpec nozzle(const InflowSpec& inflow, double dx) {
   ShapeSpec region;
@@ -54,10 +56,18 @@ fluid::Outflow buildOutflow(const OutflowSpec& spec) {
   return outflow;
 }
 
-/// Signed distance to a shape where it was placed; one from a file is read and sampled.
-SignedDistance placedDistance(const ShapeSpec& shape, double dx) {
+/// Signed distance to a solid where it was placed; one from a file is read and sampled.
+SignedDistance placedDistance(const Scene& scene, std::size_t item) {
+  const ShapeSpec& shape = scene.solids[item].shape;
   if (!isFromFile(shape.kind)) return [shape](const Eigen::Vector3d& x) { return signedDistance(shape, x); };
-  const auto field = std::make_shared<const DistanceField>(distanceFromFile(shape, dx));
+  std::shared_ptr<const DistanceField> field;
+  checkItem(
+      "solid", item,
+      [&] {
+        const double longest = kLargestSolid * scene.domain.size.maxCoeff();
+        field = std::make_shared<const DistanceField>(distanceFromFile(shape, scene.dx(), longest));
+      },
+      objectLabel("solid", scene.solids[item].name, item));
   return [field](const Eigen::Vector3d& x) { return (*field)(x); };
 }
 
@@ -66,8 +76,9 @@ SignedDistance distanceAt(const SignedDistance& placed, const MotionSpec& motion
   return [placed, pose = poseAt(motion, t)](const Eigen::Vector3d& x) { return placed(pose.toPlaced(x)); };
 }
 
-fluid::SolidObject buildSolid(const SolidSpec& spec, double dx) {
-  const SignedDistance placed = placedDistance(spec.shape, dx);
+fluid::SolidObject buildSolid(const Scene& scene, std::size_t item) {
+  const SolidSpec& spec = scene.solids[item];
+  const SignedDistance placed = placedDistance(scene, item);
   fluid::SolidObject solid;
   solid.name = spec.name;
   solid.moves = moves(spec.motion);
@@ -138,7 +149,7 @@ fluid::LiquidSetup buildLiquidSetup(const Scene& scene) {
   fluid::LiquidSetup setup;
   setup.grid = gridOf(scene);
   setup.walls.closed = scene.domain.closed;
-  for (const SolidSpec& solid : scene.solids) setup.solids.push_back(buildSolid(solid, scene.dx()));
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) setup.solids.push_back(buildSolid(scene, i));
   for (const InflowSpec& inflow : scene.inflows) setup.inflows.push_back(buildInflow(inflow, scene.dx()));
   for (const OutflowSpec& outflow : scene.outflows) setup.outflows.push_back(buildOutflow(outflow));
   return setup;
@@ -164,8 +175,8 @@ SignedDistance initialPhi(const Scene& scene) {
 
 std::vector<SignedDistance> solidDistances(const Scene& scene, double t) {
   std::vector<SignedDistance> solids;
-  for (const SolidSpec& solid : scene.solids)
-    solids.push_back(distanceAt(placedDistance(solid.shape, scene.dx()), solid.motion, t));
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    solids.push_back(distanceAt(placedDistance(scene, i), scene.solids[i].motion, t));
   return solids;
 }
 

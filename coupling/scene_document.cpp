@@ -87,9 +87,11 @@ void SceneDocument::applyOverride(const std::string& key, const std::string& val
 
 std::string SceneDocument::place(const std::string& key, const toml::source_region& source) const {
   const auto found = overrides_.lower_bound(key);  // the key itself, or one inside the table it names
-  if (found != overrides_.end() && isAtOrIn(found->first, key)) return found->second;
+  const bool overridden = found != overrides_.end() && isAtOrIn(found->first, key);
+  if (overridden && (found->first == key || !source.begin)) return found->second;
   if (!source.begin) return path_;
-  return path_ + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column);
+  return path_ + ":" + std::to_string(source.begin.line) + ":" + std::to_string(source.begin.column) +
+         (overridden ? " with " + found->second : "");
 }
 
 std::string SceneDocument::place(const std::string& key) const {

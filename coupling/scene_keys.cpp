@@ -13,7 +13,8 @@ KeyTable sceneTable() {
   return KeyTableBuilder<Scene>("scene", "What is simulated.",
                                 [](Scene& s, std::size_t) -> Scene& { return s; })
       .key("name", &Scene::name,
-           "names the output folder; letters, digits, _ and -; default: the file's name")
+           "names the output folder; letters, digits, _ and -; default: the file's name, other characters as "
+           "_")
       .key("title", &Scene::title, "one line about the scene")
       .key("seed", &Scene::seed, {0, kLargestSeed, "-"}, "of every random number of the run")
       .key(
@@ -78,7 +79,8 @@ KeyTable liquidTable() {
 KeyTable couplingTable() {
   return partTable("coupling", "What liquid and foam do to each other.", &Scene::coupling)
       .key("immersed_gas", &CouplingSpec::immersedGas, "bubbles under the surface raise it")
-      .key("two_way", &CouplingSpec::twoWay, "the liquid feels the drag of the bubbles: plumes rise with them")
+      .key("two_way", &CouplingSpec::twoWay,
+           "the liquid feels the drag of the bubbles: plumes rise with them")
       .build();
 }
 

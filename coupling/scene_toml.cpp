@@ -1,6 +1,7 @@
 #include "coupling/scene_toml.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "coupling/nearest_key.h"
@@ -17,6 +18,14 @@ namespace {
 
 std::string dotted(const std::string& table, const std::string& key) {
   return table.empty() ? key : table + "." + key;
+}
+
+/// What to write instead of an unknown key: the nearest one, where it is near enough to be meant.
+std::string suggestion(const std::string& key, const std::vector<std::string>& valid) {
+  const std::string nearest = nearestOf(key, valid);
+  const std::string name = key.substr(key.rfind('.') + 1);
+  const bool isNear = 2 * editDistance(key, nearest) <= static_cast<int>(name.size());
+  return "the nearest valid one is " + nearest + (isNear ? "" : "; `spume check --keys` explains all");
 }
 
 /// Fills a scene from a document by the table of keys.
@@ -82,8 +91,8 @@ class SceneReader {
       valid.push_back(table.path);
       for (const KeyRow& row : table.keys) valid.push_back(dotted(table.path, row.name));
     }
-    throw SceneError(document_.place(key, source) + ": unknown key " + key + "; the nearest valid one is " +
-                     nearestOf(dotted(path, name), valid));
+    throw SceneError(document_.place(key, source) + ": unknown key " + key + "; " +
+                     suggestion(dotted(path, name), valid));
   }
 
   void readArray(const KeyTable& table, const toml::node* node) {
@@ -152,9 +161,25 @@ void checkTogether(const Scene& scene, const SceneDocument& document, const std:
     checkObjects(scene);
   } catch (const ObjectError& error) {
     throw SceneError(document.place(error.key()) + ": " + error.what());
+  } catch (const ObjectFileError& error) {
+    throw FileError(document.place(error.key()) + ": " + error.what());
   } catch (const SceneError& error) {
     throw SceneError(path + ": " + error.what());
   }
+}
+
+/// A file's name as the name of a scene: what is no letter, digit, _ or - becomes _.
+std::string fileSafe(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return name;
+}
+
+Scene presetScene(foam::Preset preset) {
+  Scene scene;
+  scene.preset = preset;
+  scene.foam = foam::makePreset(preset);
+  return scene;
 }
 
 /// "[domain]" or "[[inflow]]".
@@ -174,11 +199,14 @@ std::string writeItem(const KeyTable& table, Scene& scene, std::size_t item) {
   return text;
 }
 
-std::string describeRow(const KeyRow& row, Scene& defaults) {
+/// `paper` holds the defaults of that preset, to be named where they are others.
+std::string describeRow(const KeyRow& row, Scene& defaults, Scene& paper) {
   const Slot slot = row.slot(defaults, 0);
   const std::string range = rangeText(slot, row.range);
   std::string text = "  " + row.name + ": " + typeName(slot) + (range.empty() ? "" : ", " + range);
   text += row.required ? ", required" : ", default " + toToml(slot);
+  if (const std::string other = toToml(row.slot(paper, 0)); row.name != "preset" && other != toToml(slot))
+    text += " (preset paper: " + other + ")";
   if (!row.appliesTo.empty()) text += ", for " + row.appliesTo;
   return text + "\n      " + row.meaning + "\n";
 }
@@ -188,7 +216,8 @@ std::string describeRow(const KeyRow& row, Scene& defaults) {
 Scene readScene(const std::string& path, const Overrides& overrides) {
   const SceneDocument document(path, overrides);
   Scene scene = SceneReader(document).read();
-  if (!document.root().at_path("scene.name")) scene.name = std::filesystem::path(path).stem().string();
+  if (!document.root().at_path("scene.name"))
+    scene.name = fileSafe(std::filesystem::path(path).stem().string());
   shareCommonValues(scene);
   findFiles(scene, path);
   checkTogether(scene, document, path);
@@ -205,16 +234,16 @@ std::string writeScene(const Scene& scene) {
 }
 
 std::string describeSceneKeys() {
-  Scene defaults;
+  Scene defaults = presetScene(foam::Preset::physical), paper = presetScene(foam::Preset::paper);
   std::string text;
   for (const KeyTable& table : sceneTables()) {
-    if (table.isArray()) table.resize(defaults, 1);
+    if (table.isArray()) table.resize(defaults, 1), table.resize(paper, 1);
     text.append(text.empty() ? "" : "\n")
         .append(header(table))
         .append("  ")
         .append(table.meaning)
         .append("\n");
-    for (const KeyRow& row : table.keys) text += describeRow(row, defaults);
+    for (const KeyRow& row : table.keys) text += describeRow(row, defaults, paper);
   }
   return text;
 }

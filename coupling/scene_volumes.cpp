@@ -8,9 +8,21 @@
 
 namespace spume::coupling {
 
+namespace {
+
+/// Liquid at rest under its level.
+SignedDistance poolPhi(const Scene& scene) {
+  const Eigen::Vector3d& g = scene.liquid.gravity;
+  const Eigen::Vector3d up = g.norm() > 0 ? Eigen::Vector3d(-g.normalized()) : Eigen::Vector3d::UnitY();
+  return [up, level = scene.stillPool.level](const Eigen::Vector3d& x) { return up.dot(x) - level; };
+}
+
+}  // namespace
+
 double initialWetShare(const Scene& scene) {
   constexpr int kPoints = 32;
-  const SignedDistance phi = initialPhi(scene), psi = solidDistance(scene);
+  const SignedDistance phi = scene.stillPool.enabled ? poolPhi(scene) : initialPhi(scene),
+                       psi = solidDistance(scene);
   int wet = 0;
   for (int i = 0; i < kPoints; ++i)
     for (int j = 0; j < kPoints; ++j)

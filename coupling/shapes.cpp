@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "coupling/toml_slot.h"
+
 namespace spume::coupling {
 namespace {
 
@@ -58,6 +60,12 @@ double vesselDistance(const ShapeSpec& vessel, const Eigen::Vector3d& x) {
 
 Eigen::Vector3d vesselMiddle(const ShapeSpec& vessel) {
   return vessel.centre + 0.5 * (vessel.innerHeight - vessel.bottomThickness) * vessel.axis.normalized();
+}
+
+std::string text(const Eigen::Vector3d& v) {
+  std::string all;
+  for (int axis = 0; axis < 3; ++axis) all.append(axis == 0 ? "[" : ", ").append(exactText(v[axis]));
+  return all.append("]");
 }
 
 bool needsRadius(ShapeKind kind) { return kind == ShapeKind::sphere || kind == ShapeKind::cylinder; }
@@ -138,7 +146,8 @@ bool isFromFile(ShapeKind kind) { return kind == ShapeKind::mesh || kind == Shap
 
 std::string defect(const ShapeSpec& shape) {
   if (shape.kind == ShapeKind::box && !((shape.upper - shape.lower).minCoeff() > 0))
-    return "upper must exceed lower on every axis";
+    return "upper must exceed lower on every axis; lower is " + text(shape.lower) + ", upper " +
+           text(shape.upper) + " [m]";
   if (needsRadius(shape.kind) && !(shape.radius > 0)) return "radius must be greater than 0 [m]";
   if (shape.kind == ShapeKind::cylinder && !(shape.height > 0)) return "height must be greater than 0 [m]";
   if (shape.kind == ShapeKind::vessel &&

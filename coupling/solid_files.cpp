@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "coupling/errors.h"
+#include "coupling/toml_slot.h"
 #include "coupling/triangle_mesh.h"
 #include "coupling/vdb_file.h"
 
@@ -16,16 +17,24 @@ namespace spume::coupling {
 namespace {
 
 constexpr double kVoxelsPerCell =
-    2;                           // the distance is interpolated: its error stays below that of the cut cells
-constexpr int kMargin = 8;       // [voxels] sampled round a solid
-constexpr float kHalfWidth = 3;  // [voxels] of the band that is measured against the triangles
+    2;  // the distance is interpolated: its error stays below that of the cut cells
+constexpr double kFarthest = 1e4;    // [m] from the origin, as the keys of a scene allow
+constexpr int kMargin = 8;           // [voxels] sampled round a solid
+constexpr float kHalfWidth = 3;      // [voxels] of the band that is measured against the triangles
 constexpr double kBandShare = 0.99;  // of a level set's background: values closer to it are not distances
 
 using Box = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
 
 /// Points that fill a box and its margin, at whole multiples of the spacing.
-DistanceField fieldAround(const Box& box, double dx) {
+DistanceField fieldAround(const ShapeSpec& shape, const Box& box, double dx, double longest) {
   const Eigen::Vector3d size = box.second - box.first;
+  const double reach = box.first.cwiseAbs().cwiseMax(box.second.cwiseAbs()).maxCoeff();
+  if (!(size.maxCoeff() <= longest && reach <= kFarthest))
+    throw SceneError(shape.file + ": is " + exactText(size.maxCoeff()) + " m long and reaches " +
+                     exactText(reach) + " m from its origin at scale = " + exactText(shape.scale) +
+                     " [m per unit of the file]; at most " + exactText(longest) + " m and " +
+                     exactText(kFarthest) +
+                     " m in this domain; write scale = 0.01 for centimetres, 0.001 for millimetres");
   const double voxel = DistanceField::affordableVoxel(
       (size.array() + 2 * kMargin * dx / kVoxelsPerCell).matrix(), dx / kVoxelsPerCell);
   const Eigen::Vector3i first = (box.first / voxel).array().floor().cast<int>() - kMargin;
@@ -49,11 +58,11 @@ Box boundsOf(const std::vector<Eigen::Vector3d>& vertices) {
   return box;
 }
 
-DistanceField meshDistance(const ShapeSpec& shape, double dx) {
+DistanceField meshDistance(const ShapeSpec& shape, double dx, double longest) {
   TriangleMesh mesh = readMesh(shape.file);
   requireClosed(mesh, shape.file);
   for (Eigen::Vector3d& x : mesh.vertices) x *= shape.scale;
-  DistanceField field = fieldAround(boundsOf(mesh.vertices), dx);
+  DistanceField field = fieldAround(shape, boundsOf(mesh.vertices), dx, longest);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
   for (const Eigen::Vector3d& x : mesh.vertices) points.emplace_back(x.x(), x.y(), x.z());
@@ -85,11 +94,11 @@ Box worldBounds(const openvdb::FloatGrid& grid) {
   return {{box.min().x(), box.min().y(), box.min().z()}, {box.max().x(), box.max().y(), box.max().z()}};
 }
 
-DistanceField levelSetDistance(const ShapeSpec& shape, double dx) {
+DistanceField levelSetDistance(const ShapeSpec& shape, double dx, double longest) {
   const openvdb::FloatGrid::Ptr grid = levelSetIn(shape.file);
   if (grid->activeVoxelCount() == 0) throw SceneError(shape.file + ": its level set is empty");
   const Box box = worldBounds(*grid);
-  DistanceField field = fieldAround({shape.scale * box.first, shape.scale * box.second}, dx);
+  DistanceField field = fieldAround(shape, {shape.scale * box.first, shape.scale * box.second}, dx, longest);
   const auto accessor = grid->getConstAccessor();
   const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor, openvdb::tools::BoxSampler> sampler(
       accessor, grid->transform());
@@ -105,8 +114,9 @@ DistanceField levelSetDistance(const ShapeSpec& shape, double dx) {
 
 }  // namespace
 
-DistanceField distanceFromFile(const ShapeSpec& shape, double dx) {
-  return shape.kind == ShapeKind::mesh ? meshDistance(shape, dx) : levelSetDistance(shape, dx);
+DistanceField distanceFromFile(const ShapeSpec& shape, double dx, double longest) {
+  return shape.kind == ShapeKind::mesh ? meshDistance(shape, dx, longest)
+                                       : levelSetDistance(shape, dx, longest);
 }
 
 }  // namespace spume::coupling

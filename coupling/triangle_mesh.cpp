@@ -210,11 +210,11 @@ void requireClosed(const TriangleMesh& mesh, const std::string& path) {
     }
   for (const auto& [edge, triangles] : uses)
     if (triangles % 2 != 0)
-      throw SceneError(path + ": the mesh leaks: the edge from vertex " + std::to_string(edge.first + 1) +
-                       " " + placeText(mesh.vertices[edge.first]) + " to vertex " +
-                       std::to_string(edge.second + 1) + " " + placeText(mesh.vertices[edge.second]) +
-                       " belongs to " + std::to_string(triangles) +
-                       " triangle(s), expected 2; close the hole");
+      throw SceneError(
+          path + ": the mesh leaks: the edge from vertex " + std::to_string(edge.first + 1) + " " +
+          placeText(mesh.vertices[edge.first]) + " to vertex " + std::to_string(edge.second + 1) + " " +
+          placeText(mesh.vertices[edge.second]) + " belongs to " + std::to_string(triangles) +
+          " triangle(s), expected 2; close the hole, or join the vertices where it only seems open");
 }
 
 }  // namespace spume::coupling

@@ -176,6 +176,14 @@ const BadInput kBadInputs[] = {
      kDomain,
      {"--set time.fps=0: time.fps = 0", "1 to 1000 [1/s]"},
      {{"time.fps", "0"}}},
+    {"OverrideOfAnObjectThatDoesNotFit",
+     kDomain + "[[inflow]]\nname = 'jet'\ncentre = [0.5, 2, 0.5]\nradius = 0.1\n",
+     {"bad_scene.toml:3:1 with --set inflow.0.speed=3: inflow 'jet'", "leaves the domain"},
+     {{"inflow.0.speed", "3"}}},
+    {"MedianOutsideTheCut",
+     kDomain + "[[bubble_source]]\nshape = 'sphere'\nradius = 0.1\nmedian_radius = 0.1\n",
+     {":6:17: bubble_source.0.median_radius = 0.1 lies outside the cut: min_radius", "[m]"}},
+    {"UnknownKeyLikeNoOther", kDomain + "[foam]\nlambda = 1\n", {"foam.lambda", "check --keys"}},
     {"OverrideUnknown", kDomain, {"--set time.fsp=3: unknown key time.fsp", "time.fps"}, {{"time.fsp", "3"}}},
     {"OverrideUnknownTable", kDomain, {"--set tiem.fps=3: unknown key tiem", "time"}, {{"tiem.fps", "3"}}},
     {"OverrideMissingItem", kDomain, {"--set inflow.0.speed=3", "array.0.key"}, {{"inflow.0.speed", "3"}}},
@@ -203,6 +211,9 @@ TEST(BubbleFile, IsRefusedWithFileAndLine) {
       {head + good + good, {"bad_bubbles.csv:3:", "id 0", "bad_bubbles.csv:2:"}},
       {head + good + "1,0.5,0.5\n", {"bad_bubbles.csv:3:", "3 fields"}},
       {head + "\r\n" + good + "1,0.5,1.5,0.5,1e-3\r\n", {"bad_bubbles.csv:4", "outside the domain"}},
+      {"id,x,y,z,r,vx,vy,vz\n0,0.5,0.5,0.5,1e-3,0,1e6,0\n",
+       {"bad_bubbles.csv:2: velocity [0, 1e+06, 0]", "-100 to 100 [m/s]"}},
+      {head + "0,0.5,0.5,0.5,1e-9\n", {"bad_bubbles.csv:2: radius 1e-09 m", "1e-06 m or more"}},
       {head + good + "1,0.5,0.5,0.5,0.6\n", {"bad_bubbles.csv:3", "larger than the domain", "0.5 m"}}};
   for (const auto& [csv, parts] : kCases) {
     const std::string message = messageOfBubbles(csv);
@@ -234,6 +245,43 @@ TEST(BubbleSource, IsRefusedWithFileAndLine) {
       EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
   }
   EXPECT_EQ(messageOfSource("[0.5, 0.8, 0.5]", "0.5"), "");
+}
+
+/// A closed box, in a file beside the scene.
+std::string messageOfMesh(const std::string& firstVertex, const std::string& scale) {
+  const std::string path = temporaryPath("box.obj");
+  std::ofstream(path) << "v " << firstVertex << "\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                      << "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string message = messageOf(
+      kDomain + "[[solid]]\nname = 'duck'\nshape = 'mesh'\nfile = 'box.obj'\nscale = " + scale + "\n");
+  std::remove(path.c_str());
+  return message;
+}
+
+TEST(MeshFile, AnotherUnitIsRefusedWithPlaceAndRemedy) {
+  EXPECT_EQ(messageOfMesh("0 0 0", "1"), "");
+  for (const std::string& message : {messageOfMesh("0 0 0", "100"), messageOfMesh("1e30 0 0", "1")})
+    for (const std::string part : {":3:1: solid 'duck': ", "box.obj: is ", "scale", "at most 20 m"})
+      EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+}
+
+TEST(MeshFile, MissingOneIsAFileErrorWithThePlaceInTheScene) {
+  const SceneFile file(kDomain + "[[solid]]\nname = 'duck'\nshape = 'mesh'\nfile = 'no.obj'\n");
+  try {
+    readScene(file.path());
+    FAIL() << "a missing file was read";
+  } catch (const FileError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("bad_scene.toml:3:1: solid 'duck': "), std::string::npos) << message;
+    EXPECT_NE(message.find("no.obj: cannot read: No such file"), std::string::npos) << message;
+  }
+}
+
+TEST(SceneFile, AnyFileNameMakesASceneName) {
+  const std::string path = temporaryPath("my scene \xc3\xbc.toml");
+  std::ofstream(path) << kDomain;
+  EXPECT_EQ(readScene(path).name, "my_scene___");
+  std::remove(path.c_str());
 }
 
 TEST(SceneFile, MissingFileIsAFileError) {

@@ -2,9 +2,11 @@
 
 #include <numbers>
 
+#include "coupling/room_lint.h"
 #include "coupling/scene_lint.h"
 #include "coupling/scene_toml.h"
 #include "coupling/scene_volumes.h"
+#include "tests/support/coupling_shapes.h"
 
 namespace spume::coupling {
 namespace {
@@ -15,6 +17,12 @@ bool mentions(const std::vector<Finding>& findings, const std::string& object, c
   for (const Finding& finding : findings)
     if (finding.object == object && finding.message.find(words) != std::string::npos) return true;
   return false;
+}
+
+std::vector<Finding> lintRoomOf(const Scene& scene) {
+  FindingList findings;
+  lintRoom(scene, findings);
+  return findings.take();
 }
 
 TEST(SceneLint, ShippedPouringHasNoWarning) {
@@ -51,6 +59,74 @@ TEST(SceneLint, OverlapsThinVesselsAndBuriedProbesAreNamed) {
   scene.probes.resize(1);
   scene.probes[0].position = {0.08, 0.07, 0.08};
   EXPECT_TRUE(mentions(lintScene(scene), "probe 0", "lies in a solid"));
+}
+
+TEST(SceneLint, WhatHasNoRoomOnTheGridIsNamed) {
+  Scene scene = pouring();  // cells of 2.5 mm
+  scene.liquidBodies[0].shape.upper.y() = 0.001;
+  EXPECT_TRUE(mentions(lintScene(scene), "liquid_body 'pool'", "no free centre of a cell"));
+  scene.liquidBodies[0].shape.upper.y() = 0.002;
+  EXPECT_FALSE(mentions(lintScene(scene), "liquid_body 'pool'", "no free centre of a cell"));
+  scene.outflows.resize(1);
+  scene.outflows[0].name = "drain";
+  scene.outflows[0].shape = test::boxShape({0.06, 0, 0.06}, {0.1, 0.02, 0.1});
+  EXPECT_FALSE(mentions(lintScene(scene), "outflow 'drain'", "inside a solid"));
+  scene.solids = {test::solidOf("floor", test::boxShape({0, 0, 0}, {0.16, 0.02, 0.16}))};
+  EXPECT_TRUE(mentions(lintScene(scene), "outflow 'drain'", "inside a solid"));
+  scene.inflows.clear();
+  scene.solids[0].shape = test::boxShape({-1, -1, -1}, {1, 1, 1});
+  EXPECT_TRUE(mentions(lintScene(scene), "domain", "all solid"));
+}
+
+TEST(SceneLint, EdgesThatRoundingChangesAreNamed) {
+  Scene scene = pouring();
+  EXPECT_FALSE(mentions(lintScene(scene), "domain.size", ""));
+  scene.domain.size = {0.16, 0.16, 0.001};  // four cells of 2.5 mm at least
+  EXPECT_TRUE(mentions(lintRoomOf(scene), "domain.size", "0.001 m along z becomes 0.01 m"));
+}
+
+TEST(SceneLint, SolidsThatJumpRaceOrStayOutsideAreNamed) {
+  Scene scene = pouring();
+  scene.solids = {test::solidOf("paddle", test::boxShape({0.02, 0.02, 0.02}, {0.05, 0.05, 0.05}))};
+  EXPECT_FALSE(mentions(lintScene(scene), "solid 'paddle'", ""));
+  scene.solids[0].motion.position.keys = {{0, {0, 0, 0}}, {0.001, {0.1, 0, 0}}};
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'paddle'", "40 cells between its keys"));
+  scene.solids[0].motion.position.keys = {{0, {0, 0, 0}}, {0.1, {0.1, 0, 0}}};  // 1 m/s
+  EXPECT_FALSE(mentions(lintScene(scene), "solid 'paddle'", ""));
+  scene.solids[0].motion.position.keys = {{0, {0, 0, 0}}, {0.02, {0.1, 0, 0}}};
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'paddle'", "5 m/s"));
+  scene.solids[0].motion = {};
+  scene.solids[0].motion.rotationAxis = {0, 1, 0};
+  scene.solids[0].motion.rotation.keys = {{0, 0}, {1, 36000}};  // 628 rad/s, at least 0.02 m from the axis
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'paddle'", "moves at up to"));
+  scene.solids[0].motion = {};
+  scene.solids[0].motion.position = Eigen::Vector3d(5, 5, 5);
+  EXPECT_TRUE(mentions(lintScene(scene), "solid 'paddle'", "no point of the grid"));
+}
+
+TEST(SceneLint, KeysThatDoNothingAreNoted) {
+  Scene scene = pouring();
+  EXPECT_FALSE(mentions(lintScene(scene), "foam.drag_coefficient", ""));
+  scene.foam.dragCoefficient = 100;
+  EXPECT_TRUE(mentions(lintScene(scene), "foam.drag_coefficient", "foam.drag_law"));
+  scene.foam.dragLaw = foam::DragLaw::coefficient;
+  EXPECT_FALSE(mentions(lintScene(scene), "foam.drag_coefficient", ""));
+  scene.stillPool.level = 0.05;
+  EXPECT_TRUE(mentions(lintScene(scene), "still_pool.level", "still_pool.enabled"));
+}
+
+TEST(SceneLint, CrowdedBubblesAndManySitesAreNamed) {
+  Scene scene = pouring();
+  BubblesSpec one;
+  one.bubble.position = {0.08, 0.02, 0.08};
+  one.bubble.radius = 1e-3;
+  scene.bubbles.assign(30, one);
+  EXPECT_FALSE(mentions(lintScene(scene), "bubbles", "slow"));  // 30 x 4.19 mm^3 in 8 mm^3
+  scene.bubbles.assign(50, one);
+  EXPECT_TRUE(mentions(lintScene(scene), "bubbles", "slow"));
+  scene.nucleation.resize(1);
+  scene.nucleation[0].density = 1e8;
+  EXPECT_TRUE(mentions(lintScene(scene), "nucleation 0", "1.28e+07 sites"));  // five walls of 0.0256 m^2
 }
 
 TEST(SceneLint, LargeBubblesThinJetsAndFastJetsAreFound) {
@@ -94,6 +170,13 @@ TEST(SceneVolumes, PouredVolumeIsTheIntegralOfTheFlux) {
 
 TEST(SceneVolumes, WetShareOfAQuarterFullBoxIsAQuarter) {
   EXPECT_EQ(initialWetShare(pouring()), 0.25);  // 4 cm of 16 cm: eight of 32 layers of points
+}
+
+TEST(SceneVolumes, WetShareOfAPoolAtRestIsThatUnderItsLevel) {
+  Scene scene = pouring();
+  scene.stillPool.enabled = true;
+  scene.stillPool.level = 0.08;
+  EXPECT_EQ(initialWetShare(scene), 0.5);
 }
 
 TEST(CostEstimate, GrowsWithTheScene) {

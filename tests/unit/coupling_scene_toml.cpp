@@ -192,6 +192,13 @@ TEST(SceneToml, EveryKeyIsDocumented) {
   }
 }
 
+TEST(SceneToml, DocumentedDefaultsOfTheFoamAreThoseOfItsPresets) {
+  const std::string text = describeSceneKeys();
+  EXPECT_NE(text.find("spring_from_surface_tension: true or false, default true (preset paper: false)"),
+            std::string::npos);
+  EXPECT_NE(text.find("default \"pressure_gradient\" (preset paper: \"hydrostatic\")"), std::string::npos);
+}
+
 TEST(Animated, IsLinearBetweenKeysAndHeldBeyond) {
   Animated animated;
   animated.keys = {{1, 10}, {3, 20}, {4, 0}};
