@@ -60,6 +60,7 @@ class Session {
 /// Checks what can be checked without a folder, then makes the folder.
 coupling::RunFolder prepareFolder(const SessionOptions& options) {
   coupling::checkObjects(options.scene);
+  coupling::RunFolder::requireNoForeignFile(options.folder, options.restart);
   return coupling::RunFolder(options.folder);
 }
 
@@ -76,6 +77,9 @@ Session::Session(const SessionOptions& options)
     simulation_ = std::make_unique<Simulation>(options.scene);
     folder_.clear();
   }
+  summary_.threads = options.threads;
+  summary_.switchedOff = coupling::switchedOff(options.scene);
+  if (!loaded) writeSummary(summary_.status);
   log_ = std::make_unique<Log>(folder_.log());
   if (loaded) {
     for (const std::string& warning : loaded->warnings) log_->say("warning: " + warning);
@@ -85,8 +89,6 @@ Session::Session(const SessionOptions& options)
   recall(step, frame);
   statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame,
                                                              coupling::probeColumns(options.scene));
-  summary_.threads = options.threads;
-  summary_.switchedOff = coupling::switchedOff(options.scene);
 }
 
 /// Takes up the totals of a run that had got to `step` and had finished `frame`.

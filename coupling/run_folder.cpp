@@ -10,8 +10,9 @@ namespace spume::coupling {
 namespace {
 
 constexpr const char* kFolders[] = {"liquid", "bubbles", "drops", "preview", "checkpoint"};
+// run.json tells a run's folder from others: it is written first and removed last.
 constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv", "probes.csv",
-                                  "run.json",  "log.txt",    "scene.toml"};
+                                  "log.txt",   "scene.toml", "run.json"};
 
 std::string numbered(const std::string& stem, int frame, const char* suffix) {
   char number[16];
@@ -28,6 +29,18 @@ bool isOurs(const std::filesystem::path& file, const std::string& folder) {
 
 RunFolder::RunFolder(std::string root) : root_(std::move(root)) {
   for (const char* folder : kFolders) createFolder(root_ + "/" + folder);
+}
+
+void RunFolder::requireNoForeignFile(const std::string& root, bool restart) {
+  std::error_code ignored;
+  if (std::filesystem::exists(root + "/run.json", ignored)) return;
+  for (const std::string file : kFiles) {
+    const bool given = restart && file != "scene.toml";
+    if (!given && std::filesystem::exists(root + "/" + file, ignored))
+      throw FileError(root + "/" + file +
+                      ": no run wrote this file, and one would replace it; name another " + "folder with -o" +
+                      (file == "scene.toml" ? "" : ", or give it up with --restart"));
+  }
 }
 
 std::string RunFolder::liquid(int frame) const { return numbered(root_ + "/liquid/liquid", frame, ".vdb"); }

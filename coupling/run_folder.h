@@ -14,6 +14,10 @@ class RunFolder {
   /// Throws FileError.
   explicit RunFolder(std::string root);
 
+  /// Throws FileError where `root` holds no run but a file a run would write over: somebody's own scene.toml,
+  /// or, unless `restart` gives leave, another such file.
+  static void requireNoForeignFile(const std::string& root, bool restart);
+
   const std::string& root() const { return root_; }
   std::string scene() const { return root_ + "/scene.toml"; }
   std::string runJson() const { return root_ + "/run.json"; }

@@ -103,6 +103,25 @@ TEST(CommandLine, AFolderAnotherRunWritesToIsRefused) {
   EXPECT_EQ(runSpume("run " + scene + " --frames 1 --no-preview -o " + (scratch / "out")).code, 0);
 }
 
+TEST(CommandLine, ARunDoesNotReplaceFilesOfOthers) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("scene.toml", "# mine\n" + kSound), folder = scratch / "";
+  const std::string run = "run " + scene + " --frames 1 --no-preview -o " + folder;
+  expectRefused(runSpume(run), 4, "scene.toml: no run wrote");
+  expectRefused(runSpume(run + " --restart"), 4, "scene.toml: no run wrote");
+  EXPECT_EQ(contentsOf(scene), "# mine\n" + kSound);
+  EXPECT_EQ(scratch.count(), 1u) << "folders were made";
+  std::filesystem::create_directories(scratch / "other");
+  const std::string log = scratch.write("other/log.txt", "kept\n");
+  const std::string next = "run " + scene + " --frames 1 --no-preview -o " + (scratch / "other");
+  expectRefused(runSpume(next), 4, "log.txt: no run wrote");
+  EXPECT_EQ(contentsOf(log), "kept\n");
+  EXPECT_EQ(runSpume(next + " --restart").code, 0);
+  EXPECT_EQ(runSpume("run " + (scratch / "other/scene.toml") + " --frames 2 -o " + (scratch / "other")).code,
+            0)
+      << "a run goes on from the scene it left";
+}
+
 TEST(CommandLine, PicturesOfAnIncompleteCacheSayWhatIsMissing) {
   const Scratch scratch;
   const std::string scene = scratch.write("sound.toml", kSound), out = scratch / "out";
