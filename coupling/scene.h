@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -208,6 +209,9 @@ struct CameraSpec {
   double fieldOfView = 35;          ///< vertical [degrees], 5 to 120
 };
 
+class SolidFileStore;
+std::shared_ptr<SolidFileStore> makeSolidFileStore();
+
 /// A scene with every value resolved; `scene_toml.h` reads and writes it.
 struct Scene {
   std::string name = "scene";  ///< file-name safe
@@ -233,6 +237,8 @@ struct Scene {
   std::vector<BubbleSourceSpec> bubbleSources;
   std::vector<NucleationSpec> nucleation;
   std::vector<BubbleKillSpec> bubbleKills;
+  std::shared_ptr<SolidFileStore> solidFiles =
+      makeSolidFileStore();  ///< what was read of them; copies share it
 
   double dx() const { return domain.size.maxCoeff() / domain.resolution; }
 };

@@ -9,7 +9,7 @@
 
 #include "coupling/object_label.h"
 #include "coupling/shapes.h"
-#include "coupling/solid_files.h"
+#include "coupling/solid_file_store.h"
 #include "coupling/solid_motion.h"
 
 namespace spume::coupling {
@@ -65,7 +65,7 @@ SignedDistance placedDistance(const Scene& scene, std::size_t item) {
       "solid", item,
       [&] {
         const double longest = kLargestSolid * scene.domain.size.maxCoeff();
-        field = std::make_shared<const DistanceField>(distanceFromFile(shape, scene.dx(), longest));
+        field = scene.solidFiles->distance(shape, scene.dx(), longest);
       },
       objectLabel("solid", scene.solids[item].name, item));
   return [field](const Eigen::Vector3d& x) { return (*field)(x); };

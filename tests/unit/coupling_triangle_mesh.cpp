@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 
 #include "coupling/errors.h"
 #include "coupling/scene_builder.h"
@@ -131,6 +132,22 @@ TEST(TriangleMesh, BadFilesAreRefusedWithTheirPlace) {
   EXPECT_THROW(readMesh(MeshFile("cut.ply", boxPly(true).substr(0, 250)).path()), SceneError);
   EXPECT_THROW(readMesh(MeshFile("points.stl", "solid").path()), SceneError);
   EXPECT_THROW(readMesh(temporaryPath("missing.obj")), FileError);
+}
+
+TEST(SolidFiles, CopiesOfASceneReadAFileOnce) {
+  const auto file = std::make_unique<MeshFile>("once.obj", boxObj());
+  Scene scene;
+  scene.domain.size.setConstant(4);
+  scene.domain.resolution = 16;
+  scene.solids.resize(1);
+  scene.solids[0].shape.kind = ShapeKind::mesh;
+  scene.solids[0].shape.file = file->path();
+  EXPECT_LT(solidDistance(scene)({0.5, 1, 1.5}), 0);
+  std::remove(file->path().c_str());
+  const Scene copy = scene;
+  EXPECT_LT(solidDistance(copy)({0.5, 1, 1.5}), 0);
+  scene.domain.resolution = 32;  // another spacing has to be sampled
+  EXPECT_THROW(solidDistance(scene), FileError);
 }
 
 TEST(SolidFiles, DistanceToAMeshIsThatToItsBox) {
