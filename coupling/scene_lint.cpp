@@ -101,9 +101,9 @@ class Linter {
   void lintCrowd(const foam::BubbleStore& bubbles) {
     double widest = 0;
     for (const double radius : bubbles.radius) widest = std::max(widest, 2 * radius);
-    std::map<std::array<int, 3>, double> volume;  // of the bubbles centred in blocks as wide as the widest
+    std::map<std::array<double, 3>, double> volume;  // of the bubbles centred in blocks as wide as the widest
     for (std::size_t b = 0; b < bubbles.size(); ++b) {
-      const Eigen::Array3i block = (bubbles.position[b].array() / widest).floor().cast<int>();
+      const Eigen::Array3d block = (bubbles.position[b].array() / widest).floor();
       volume[{block.x(), block.y(), block.z()}] += ballVolume(bubbles.radius[b]);
     }
     for (const auto& [block, gas] : volume)

@@ -146,9 +146,8 @@ std::string animationText(const Keys& keys, const ValueText& valueText, const Ke
 }
 
 std::string animationText(const Animated& animation) {
-  return animationText(animation.keys, exactText, [](double time, double value) {
-    return "[" + exactText(time) + ", " + exactText(value) + "]";
-  });
+  return animationText(animation.keys, exactText,
+                       [](double time, double value) { return vectorText(Eigen::Vector2d(time, value)); });
 }
 
 std::string animationText(const AnimatedVector& animation) {
