@@ -66,8 +66,8 @@ std::string describeNumbers(const std::vector<int>& numbers) {
   for (std::size_t begin = 0, end; begin < numbers.size(); begin = end) {
     end = begin + 1;
     while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
-    text += (text.empty() ? "" : ", ") + std::to_string(numbers[begin]);
-    if (end - begin > 1) text += "-" + std::to_string(numbers[end - 1]);
+    text.append(text.empty() ? "" : ", ").append(std::to_string(numbers[begin]));
+    if (end - begin > 1) text.append("-").append(std::to_string(numbers[end - 1]));
   }
   return text;
 }
