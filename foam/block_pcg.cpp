@@ -37,23 +37,28 @@ Quad padded(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double norm,
-                      double goal, int maxIterations, Vectors3& x) {
+int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
+                      const Vectors3& b, double norm, double goal, int maxIterations, Vectors3& x) {
   state_.resize(a.size()), image_.resize(a.size());
   known_.assign(2 * a.size() + 2, Vector4f::Zero());
   int iterations = 0;
-  Crew::lead(a.groups(),
-             [&](Crew& crew) { iterations = iterate(crew, a, factor, b, norm, goal, maxIterations); });
+  Crew::lead(a.groups(), [&](Crew& crew) {
+    iterations = iterate(crew, a, factor, coarse, b, norm, goal, maxIterations);
+  });
   forEachIndex(a.size(), [&](std::size_t k) {
     const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
-    x[a.source[k]] += factor.scale[k].matrix().transpose() * sum;
+    const std::size_t i = a.source[k], cluster = coarse.clusterOf(i);
+    x[i] += factor.scale[k].matrix().transpose() * sum;
+    if (cluster < coarse.clusters()) x[i] += clusters_.sum.segment<3>(3 * cluster);
   });
   return iterations;
 }
 
 /// Leaves the solution in the states' sums.
-int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
-                      double norm, double goal, int maxIterations) {
+int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                      const CoarseCorrection& coarse, const Vectors3& b, double norm, double goal,
+                      int maxIterations) {
+  startClusters(coarse, b);
   // |r| follows the norm the iteration knows closely enough to tell when to look at it.
   Norms known = {norm, start(crew, a, factor, b)};
   double slope = known.slope, length = 0, momentum = 0;
@@ -64,12 +69,16 @@ int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky
       known = look(crew, a, factor, std::exchange(length, 0));
       if (known.plain <= goal) break;
     }
-    slope = searchBack(crew, a, factor, length, momentum);
-    const Found found = searchForth(crew, a, factor);
+    const double ofRows = searchBack(crew, a, factor, length, momentum);
+    turnClusters(momentum);
+    slope = ofRows + clusters_.slope;
+    const Found found = searchForth(crew, a, factor, coarse);
     length = 0;
     if (!(found.curvature > 0)) break;  // not positive definite, or lost to round-off
     length = slope / found.curvature;
-    const double next = std::max(0.0, slope + length * (length * found.square - 2 * found.alongResidual));
+    advanceClusters(coarse, length);
+    const double next =
+        std::max(0.0, ofRows + length * (length * found.square - 2 * found.alongResidual)) + clusters_.slope;
     momentum = next / slope, slope = next;
   }
   if (length != 0)
@@ -80,7 +89,7 @@ int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky
 /// Sets the residual to b, all else to 0. Knows no search direction yet. Returns r . M^-1 r.
 double BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
                        const Vectors3& b) {
-  sumForth<1>(crew, a, sums_, [&](std::size_t k, DoubleQuad* of) {
+  sumForth<1>(crew, a, sums_, [&](std::size_t, std::size_t k, DoubleQuad* of) {
     const TriangularBlock& scale = factor.scale[k];
     const Quad residual = scale.times(padded(b[a.source[k]]) - coupledWithin(a, k));
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
@@ -88,7 +97,30 @@ double BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesk
     image_[k].setZero();
     addTo(of[0], residual * residual);
   });
-  return total(0);
+  return total(0) + clusters_.slope;
+}
+
+void BlockPcg::startClusters(const CoarseCorrection& coarse, const Vectors3& b) {
+  const std::size_t count = coarse.clusters();
+  coarse.sumUp(b, clusters_.pull);
+  coarse.solve(clusters_.pull, clusters_.answer);
+  clusters_.slope = clusters_.pull.dot(clusters_.answer);
+  clusters_.motion.setZero(3 * count), clusters_.sum.setZero(3 * count);
+  clusters_.known.assign(count + 1, Vector4f::Zero());
+}
+
+/// Turns their part of the search direction towards their answer to the residual.
+void BlockPcg::turnClusters(double momentum) {
+  clusters_.motion = clusters_.answer + momentum * clusters_.motion;
+  for (std::size_t c = 0; c + 1 < clusters_.known.size(); ++c)
+    clusters_.known[c].head<3>() = clusters_.motion.segment<3>(3 * c).cast<float>();
+}
+
+/// Goes `length` along the search direction with the clusters; the rows follow in the next sweep.
+void BlockPcg::advanceClusters(const CoarseCorrection& coarse, double length) {
+  clusters_.sum += length * clusters_.motion, clusters_.pull -= length * clusters_.image;
+  coarse.solve(clusters_.pull, clusters_.answer);
+  clusters_.slope = clusters_.pull.dot(clusters_.answer);
 }
 
 /// What couplings with later rows of its block bring row `k`.
@@ -134,12 +166,16 @@ double BlockPcg::searchBack(Crew& crew, const SweptSystem& a, const IncompleteCh
 }
 
 /// Finds the image q of the search direction p.
-BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor) {
-  sumForth<3>(crew, a, sums_, [&](std::size_t k, DoubleQuad* of) {
+BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                                      const CoarseCorrection& coarse) {
+  const std::size_t count = coarse.clusters();
+  clusters_.sums.assign(a.groups() * count, Vector4f::Zero());
+  sumForth<3>(crew, a, sums_, [&](std::size_t group, std::size_t k, DoubleQuad* of) {
     const State& s = state_[k];
     const TriangularBlock& scale = factor.scale[k];
     const Quad direction = loadQuad(s.direction), step = loadQuad(s.step);
-    const Quad known = coupledForth(a, k);
+    const Quad known = coupledForth(a, k) - coarse.exchange(k, loadQuad(known_[k]), clusters_.known.data(),
+                                                            &clusters_.sums[group * count]);
     const Quad image = direction + factor.excess[k].times(step) - scale.times(known);
     known_[behind(k)] = toVector(-scale.transposedTimes(image));
     image_[k] = toVector(image);
@@ -147,7 +183,10 @@ BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const In
     addTo(of[0], direction * change);
     addTo(of[1], loadQuad(s.residual) * change), addTo(of[2], change * change);
   });
-  return {total(0), total(1), total(2)};
+  clusters_.image.setZero(3 * count);
+  for (std::size_t c = 0; c < a.groups() * count; ++c)
+    clusters_.image.segment<3>(3 * (c % count)) += clusters_.sums[c].head<3>().cast<double>();
+  return {total(0) + clusters_.motion.dot(clusters_.image), total(1), total(2)};
 }
 
 /// The sums of all groups, in their order.
@@ -160,7 +199,7 @@ double BlockPcg::total(int which) const {
 /// Goes `length` along the search direction, which it forgets, and finds the norms of the residual there.
 BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
                                double length) {
-  sumForth<2>(crew, a, sums_, [&](std::size_t k, DoubleQuad* of) {
+  sumForth<2>(crew, a, sums_, [&](std::size_t, std::size_t k, DoubleQuad* of) {
     const TriangularBlock& scale = factor.scale[k];
     advance(k, static_cast<float>(length));
     const Quad residual = loadQuad(state_[k].residual);
@@ -170,7 +209,7 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
     for (int c = 0; c < 3; ++c) of[0][c] += plain[c] * plain[c];
     addTo(of[1], residual * residual);
   });
-  return {std::sqrt(total(0)), total(1)};
+  return {std::sqrt(total(0)), total(1) + clusters_.slope};
 }
 
 }  // namespace spume::foam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "foam/coarse_correction.h"
 #include "foam/incomplete_cholesky.h"
 #include "foam/swept_system.h"
 
@@ -9,6 +10,7 @@ namespace spume::foam {
 /// that an iteration costs one product: with C = D + L and A = C + C^T + (diag A - 2 D) + E, where E couples
 /// blocks, each product with C^-1 A C^-T is a sweep back and a sweep forth [Eisenstat 1981]. Blocks are swept
 /// in parallel; sums are taken group by group, so the result does not depend on the number of threads.
+/// A CoarseCorrection adds to search directions, and to A times them, what clusters do as a whole.
 ///
 /// All in single precision, in the coordinates in which D is the unit matrix (IncompleteCholesky): an
 /// iteration waits for memory. What rounding leaves is for the caller to find and to improve again.
@@ -16,8 +18,8 @@ class BlockPcg {
  public:
   /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
   /// as the iteration knows, or `maxIterations`; `norm` is |b|. Returns the iterations made.
-  int improve(const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b, double norm,
-              double goal, int maxIterations, Vectors3& x);
+  int improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
+              const Vectors3& b, double norm, double goal, int maxIterations, Vectors3& x);
 
  private:
   /// What the iteration knows of a row, in one cache line. With G of IncompleteCholesky and the search
@@ -33,16 +35,30 @@ class BlockPcg {
   struct Found {
     double curvature = 0, alongResidual = 0, square = 0;
   };
+  /// What the iteration knows of the clusters of a CoarseCorrection, three numbers each. The search direction
+  /// is p + Z motion, where p is what the rows' states know.
+  struct Clusters {
+    Eigen::VectorXd pull;                ///< Z^T r
+    Eigen::VectorXd answer;              ///< how clusters are to move for that
+    double slope = 0;                    ///< pull . answer
+    Eigen::VectorXd motion, image, sum;  ///< of the search direction, Z^T A of it, motions so far
+    std::vector<Eigen::Vector4f> known;  ///< motion as rows read it, and a 0
+    std::vector<Eigen::Vector4f> sums;   ///< image by group, what each group's rows bring
+  };
   struct Norms {
     double plain, slope;  ///< |r|, r . M^-1 r
   };
 
-  int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b,
-              double norm, double goal, int maxIterations);
+  int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+              const CoarseCorrection& coarse, const Vectors3& b, double norm, double goal, int maxIterations);
   double start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
                     double momentum);
-  Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor);
+  Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                    const CoarseCorrection& coarse);
+  void startClusters(const CoarseCorrection& coarse, const Vectors3& b);
+  void turnClusters(double momentum);
+  void advanceClusters(const CoarseCorrection& coarse, double length);
   Quad coupledBack(const SweptSystem& a, std::size_t k) const;
   Quad coupledWithin(const SweptSystem& a, std::size_t k) const;
   Quad coupledForth(const SweptSystem& a, std::size_t k) const;
@@ -58,6 +74,7 @@ class BlockPcg {
   /// What couplings act on, by SweptSystem::other: p, a 0, and -q.
   std::vector<Eigen::Vector4f> known_;
   std::vector<GroupSums> sums_;  ///< by group
+  Clusters clusters_;
 };
 
 }  // namespace spume::foam

@@ -49,7 +49,9 @@ double ImplicitSolve::follow(const BlockSystem& a, const Vectors3& b, const Vect
     if (isStale_[i]) residual_[i] = b[i] - a.row(i, x);
   });
   norm_ = lengthOf(residual_);
-  if (isLaidOut_) cholesky_.refresh(swept_, swept_.refresh(a, rows));
+  if (!isLaidOut_) return norm_;
+  cholesky_.refresh(swept_, swept_.refresh(a, rows));
+  coarse_.refresh(a, swept_, rows);
   return norm_;
 }
 
@@ -86,13 +88,16 @@ SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double
 int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
                            Vectors3& x) {
   if (!std::exchange(isLaidOut_, true)) {
-    swept_.copy(a, solver_ == LinearSolver::pcgIncompleteCholesky);
+    const bool factors = solver_ == LinearSolver::pcgIncompleteCholesky;
+    swept_.copy(a, factors);
     Crew::lead(swept_.groups(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
+    coarse_.build(a, swept_, factors);
   }
   int iterations = 0;
   for (int pass = 0; pass < kRefinements && norm_ > goal && iterations < maxIterations; ++pass) {
     const double last = norm_, aim = std::max(kAim * goal, kSinglePrecision * last);
-    iterations += pcg_.improve(swept_, cholesky_, residual_, last, aim, maxIterations - iterations, x);
+    iterations +=
+        pcg_.improve(swept_, cholesky_, coarse_, residual_, last, aim, maxIterations - iterations, x);
     findResidual(a, b, x);
     if (norm_ > kStalled * last) break;
   }

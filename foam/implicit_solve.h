@@ -5,6 +5,7 @@
 
 #include "foam/block_pcg.h"
 #include "foam/block_system.h"
+#include "foam/coarse_correction.h"
 #include "foam/direct_solve.h"
 #include "foam/foam_params.h"
 
@@ -52,9 +53,10 @@ class ImplicitSolve {
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
 
   LinearSolver solver_;
-  bool isLaidOut_ = false;  ///< swept_ and cholesky_ are of the system as it is
+  bool isLaidOut_ = false;  ///< swept_, cholesky_ and coarse_ are of the system as it is
   SweptSystem swept_;
   IncompleteCholesky cholesky_;
+  CoarseCorrection coarse_;
   BlockPcg pcg_;
   DirectSolve direct_;
   Vectors3 residual_;

@@ -68,6 +68,8 @@ struct SweptSystem {
 
   std::size_t size() const { return source.size(); }
   std::size_t groups() const { return groupStart_.size() - 1; }
+  /// Where row i of the BlockSystem stands here.
+  std::int32_t placeOf(std::size_t i) const { return place_[i]; }
   /// The rows of group g are groupStart()[g] .. groupStart()[g + 1] - 1.
   const std::vector<std::size_t>& groupStart() const { return groupStart_; }
 
@@ -120,9 +122,9 @@ struct alignas(64) GroupSums {
   }
 };
 
-/// sweepForth with kCount sums for each group: body(row, sums) adds quads of products to them, of which the
-/// first three numbers count. They stay in registers, and what is added to them one quad at a time takes a
-/// quarter of the instructions.
+/// sweepForth with kCount sums for each group: body(group, row, sums) adds quads of products to them, of
+/// which the first three numbers count. They stay in registers, and what is added to them one quad at a time
+/// takes a quarter of the instructions.
 template <int kCount, typename Body>
 void sumForth(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, const Body& body) {
   sums.resize(a.groups());
@@ -130,12 +132,12 @@ void sumForth(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, co
     const FlushTiny flush;
     const std::size_t end = a.groupStart()[group + 1];
     DoubleQuad of[kCount] = {};
-    for (std::size_t k = a.groupStart()[group]; k < end; ++k) body(k, of);
+    for (std::size_t k = a.groupStart()[group]; k < end; ++k) body(group, k, of);
     sums[group].set(of, kCount);
   });
 }
 
-/// The same from last to first.
+/// The same from last to first, with body(row, sums).
 template <int kCount, typename Body>
 void sumBack(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, const Body& body) {
   sums.resize(a.groups());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 #include "foam/quad_lanes.h"
 
@@ -22,6 +23,19 @@ struct SymmetricBlock {
     const Quad s = loadQuad(straight), c = loadQuad(crossed);
     return s * x + __builtin_shufflevector(c, c, 0, 0, 1, 3) * __builtin_shufflevector(x, x, 1, 0, 0, 3) +
            __builtin_shufflevector(c, c, 1, 2, 2, 3) * __builtin_shufflevector(x, x, 2, 2, 1, 3);
+  }
+  /// times() of two at once, which takes wide registers half the instructions.
+  std::pair<Quad, Quad> times(const Quad& x, const Quad& y) const {
+    using Both [[gnu::vector_size(2 * sizeof(Quad))]] = float;
+    const Quad s = loadQuad(straight), c = loadQuad(crossed);
+    const Both xy = __builtin_shufflevector(x, y, 0, 1, 2, 3, 4, 5, 6, 7);
+    const Both image = __builtin_shufflevector(s, s, 0, 1, 2, 3, 0, 1, 2, 3) * xy +
+                       __builtin_shufflevector(c, c, 0, 0, 1, 3, 0, 0, 1, 3) *
+                           __builtin_shufflevector(xy, xy, 1, 0, 0, 3, 5, 4, 4, 7) +
+                       __builtin_shufflevector(c, c, 1, 2, 2, 3, 1, 2, 2, 3) *
+                           __builtin_shufflevector(xy, xy, 2, 2, 1, 3, 6, 6, 5, 7);
+    return {__builtin_shufflevector(image, image, 0, 1, 2, 3),
+            __builtin_shufflevector(image, image, 4, 5, 6, 7)};
   }
 };
 

@@ -37,6 +37,21 @@ TEST(LinearSolvers, AgreeOnWetAndDenseFoams) {
     }
 }
 
+TEST(LinearSolvers, AgreeWhereClustersCorrect) {
+  const FloatingFoam foam(9000, 0.4);
+  const Vectors3 jacobi = velocitiesAfterStep(foam, LinearSolver::pcgJacobi, 1e-10),
+                 cholesky = velocitiesAfterStep(foam, LinearSolver::pcgIncompleteCholesky, 1e-10);
+  for (std::size_t i = 0; i < jacobi.size(); ++i) EXPECT_LE((cholesky[i] - jacobi[i]).norm(), 1e-7) << i;
+}
+
+TEST(LinearSolvers, ThreadsDoNotChangeABitWhereClustersCorrect) {
+  const auto withThreads = [](std::size_t threads) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return velocitiesAfterStep(FloatingFoam(9000, 0.4), LinearSolver::pcgIncompleteCholesky, 1e-6);
+  };
+  EXPECT_EQ(withThreads(1), withThreads(4));
+}
+
 TEST(LinearSolvers, ThreadsDoNotChangeABitOfAStep) {
   const FloatingFoam foam(3000, 0.4);  // two blocks of rows
   for (const LinearSolver solver : {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky}) {

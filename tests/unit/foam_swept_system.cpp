@@ -110,8 +110,10 @@ TEST_P(SweptSystemOf, SumsOfSweepsAreThoseOfTheirRows) {
     addTo(of[0], Quad{one, 0, 0, 9}), addTo(of[1], Quad{0, one, one, 9});
   };
   std::vector<GroupSums> forth, back;
-  Crew::lead(swept.groups(),
-             [&](Crew& crew) { sumForth<2>(crew, swept, forth, add), sumBack<2>(crew, swept, back, add); });
+  Crew::lead(swept.groups(), [&](Crew& crew) {
+    const auto addForth = [&](std::size_t, std::size_t k, DoubleQuad* of) { add(k, of); };
+    sumForth<2>(crew, swept, forth, addForth), sumBack<2>(crew, swept, back, add);
+  });
   for (std::size_t g = 0; g < swept.groups(); ++g)
     for (const GroupSums& sums : {forth[g], back[g]}) {
       EXPECT_EQ(sums.of[0], expected[g]);
