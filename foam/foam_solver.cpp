@@ -28,8 +28,9 @@ namespace {
 /// Most times the volumes are corrected at the end of a step of `newton`: the first two bring errors of 10 %
 /// to 0.1 % but where cells appear or vanish, which is left to patches.
 constexpr int kVolumePasses = 5;
-/// Share of the cells that a patch may begin with; more are corrected with all others.
-constexpr double kFewCells = 0.03;
+/// Share of the cells that a patch may begin with; more are corrected with all others. About where both cost
+/// the same.
+constexpr double kFewCells = 0.05;
 
 /// Share of the pairs that may move faster than the step resolves: bubbles that rise into a pile. Contacts
 /// are implicit and stop them within a step of any length; a froth that moves as a whole is more than these.

@@ -54,24 +54,19 @@ class SiteGrid {
   /// coordinate; of those that do not matter at least some are left out.
   template <typename Visit>
   void visitRing(const Eigen::Vector3d& x, std::int64_t ring, const Worth& worth, const Visit& visit) const {
-    const Cell centre = cellOf(x);
-    Cell cell;
-    for (cell[2] = from(centre, 2, ring); cell[2] <= to(centre, 2, ring); ++cell[2])
-      for (cell[1] = from(centre, 1, ring); cell[1] <= to(centre, 1, ring); ++cell[1]) {
-        const std::int64_t up = cell[2] - centre[2], across = cell[1] - centre[1];
-        const double least = worth.least - worth.along[2][up + ring] - worth.along[1][across + ring];
-        const auto matters = [&](std::int64_t side) { return worth.along[0][side + ring] > least; };
-        std::int64_t first = -ring, last = ring;
-        while (first <= last && !matters(first)) ++first;
-        while (first <= last && !matters(last)) --last;
-        if (first > last) continue;
-        if (std::max(std::abs(up), std::abs(across)) == ring) {
-          visitRow({centre[0] + first, cell[1], cell[2]}, centre[0] + last, visit);
-          continue;
-        }
-        if (first == -ring) visitRow({centre[0] - ring, cell[1], cell[2]}, centre[0] - ring, visit);
-        if (last == ring) visitRow({centre[0] + ring, cell[1], cell[2]}, centre[0] + ring, visit);
+    const Cell middle = cellOf(x);
+    const double alongX = *std::max_element(worth.along[0].begin(), worth.along[0].end());
+    const double alongY = *std::max_element(worth.along[1].begin(), worth.along[1].end());
+    for (std::int64_t z = from(middle, 2, ring); z <= to(middle, 2, ring); ++z) {
+      const double layer = worth.least - worth.along[2][z - middle[2] + ring];
+      if (!(alongX + alongY > layer)) continue;
+      for (std::int64_t y = from(middle, 1, ring); y <= to(middle, 1, ring); ++y) {
+        const double least = layer - worth.along[1][y - middle[1] + ring];
+        if (!(alongX > least)) continue;
+        const bool whole = std::max(std::abs(z - middle[2]), std::abs(y - middle[1])) == ring;
+        visitRingRow({middle[0], y, z}, ring, whole, worth.along[0], least, visit);
       }
+    }
   }
   /// The lower corner of the cell of x [m].
   Eigen::Vector3d cornerOf(const Eigen::Vector3d& x) const {
@@ -94,6 +89,24 @@ class SiteGrid {
   }
   std::int64_t to(const Cell& centre, int axis, std::int64_t ring) const {
     return std::min(centre[axis] + ring, high_[axis]);
+  }
+  /// The sites of a ring in the row of `middle` along x, in which at least one cell matters: the whole row,
+  /// or but its ends.
+  template <typename Visit>
+  void visitRingRow(const Cell& middle, std::int64_t ring, bool whole, const std::vector<double>& along,
+                    double least, const Visit& visit) const {
+    std::int64_t first = -ring, last = ring;
+    const auto visitFrom = [&](std::int64_t begin, std::int64_t end) {
+      visitRow({middle[0] + begin, middle[1], middle[2]}, middle[0] + end, visit);
+    };
+    if (!whole) {
+      if (along.front() > least) visitFrom(first, first);
+      if (along.back() > least) visitFrom(last, last);
+      return;
+    }
+    while (!(along[first + ring] > least)) ++first;
+    while (!(along[last + ring] > least)) --last;
+    visitFrom(first, last);
   }
   /// The sites of the cells from `first` to the one at `last` along x.
   template <typename Visit>

@@ -14,7 +14,8 @@ constexpr std::size_t kRowsPerPiece = 1024;  ///< of a parallel task
 
 void takePart(const FoamTopology& all, const Neighbours& neighbours, const std::vector<std::int32_t>& rows,
               const std::vector<std::int32_t>& place, FoamTopology& part) {
-  part = {};
+  for (auto* column : {&part.volume, &part.freeArea, &part.filmArea}) column->clear();
+  part.overlaps.clear(), part.films.clear(), part.hidden.clear();
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::int32_t i = rows[k];
     part.volume.push_back(all.volume[i]), part.hidden.push_back(all.hidden[i]);

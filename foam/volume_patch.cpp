@@ -23,12 +23,13 @@ bool VolumePatch::settle(const FoamParams& params, const std::vector<NearWalls>&
   for (int step = 0; step < kSteps; ++step) {
     const std::vector<std::int32_t> off = cellsOff(bubbles, params.volumeTolerance);
     if (off.empty()) break;
+    if (step > 0) neighbours.build(bubbles.size(), topology.overlaps);
     choose(off, neighbours, bubbles.size());
     gather(walls, bubbles);
     correct(params, topology, neighbours);
-    giveBack(topology, neighbours, bubbles);
+    giveBack(topology, bubbles);
   }
-  return hasAllPairs(neighbours, bubbles);
+  return hasAllPairs(topology.overlaps, bubbles);
 }
 
 void VolumePatch::choose(const std::vector<std::int32_t>& off, const Neighbours& neighbours,
@@ -68,18 +69,19 @@ void VolumePatch::correct(const FoamParams& params, const FoamTopology& topology
   cells_.compute(part_, walls_, topology_);
 }
 
-void VolumePatch::giveBack(FoamTopology& topology, Neighbours& neighbours, BubbleStore& bubbles) {
+void VolumePatch::giveBack(FoamTopology& topology, BubbleStore& bubbles) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     bubbles.radius[rows_[k]] = part_.radius[k];
     bubbles.clamped[rows_[k]] = part_.clamped[k];
   }
   replacer_.putBack(topology_, rows_, whole_, topology);
   noteVolumes(topology, bubbles);
-  neighbours.build(bubbles.size(), topology.overlaps);
 }
 
 /// Whether every ball that has grown knows all others it overlaps: a patch sees those in it alone.
-bool VolumePatch::hasAllPairs(const Neighbours& neighbours, const BubbleStore& bubbles) const {
+bool VolumePatch::hasAllPairs(const std::vector<OverlapPair>& pairs, const BubbleStore& bubbles) {
+  known_.assign(bubbles.size(), 0);
+  for (const OverlapPair& pair : pairs) ++known_[pair.i], ++known_[pair.j];
   for (std::size_t i = 0; i < bubbles.size(); ++i) {
     const double r = bubbles.radius[i];
     if (r <= (1 + kGrown) * radius_[i]) continue;
@@ -89,7 +91,7 @@ bool VolumePatch::hasAllPairs(const Neighbours& neighbours, const BubbleStore& b
       return (bubbles.position[j] - at).squaredNorm() < reach * reach ? 1 : 0;
     };
     const int found = reduceIndices(bubbles.size(), 0, overlaps, std::plus<>()) - 1;
-    if (found > neighbours.start[i + 1] - neighbours.start[i]) return false;
+    if (found > known_[i]) return false;
   }
   return true;
 }
