@@ -1,6 +1,7 @@
 #include "foam/block_pcg.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "foam/parallel.h"
 
@@ -14,6 +15,10 @@ using Eigen::Vector4f;
 /// too high, which cost half as many iterations again.
 constexpr double kNear = 10;
 constexpr int kLook = 8;
+
+double sumOfProducts(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
 /// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used. What a
 /// register holds beyond the last entry are those of other rows, and does not count.
@@ -104,7 +109,7 @@ void BlockPcg::startClusters(const CoarseCorrection& coarse, const Vectors3& b) 
   const std::size_t count = coarse.clusters();
   coarse.sumUp(b, clusters_.pull);
   coarse.solve(clusters_.pull, clusters_.answer);
-  clusters_.slope = clusters_.pull.dot(clusters_.answer);
+  clusters_.slope = sumOfProducts(clusters_.pull, clusters_.answer);
   clusters_.motion.setZero(3 * count), clusters_.sum.setZero(3 * count);
   clusters_.known.assign(count + 1, Vector4f::Zero());
 }
@@ -120,7 +125,7 @@ void BlockPcg::turnClusters(double momentum) {
 void BlockPcg::advanceClusters(const CoarseCorrection& coarse, double length) {
   clusters_.sum += length * clusters_.motion, clusters_.pull -= length * clusters_.image;
   coarse.solve(clusters_.pull, clusters_.answer);
-  clusters_.slope = clusters_.pull.dot(clusters_.answer);
+  clusters_.slope = sumOfProducts(clusters_.pull, clusters_.answer);
 }
 
 /// What couplings with later rows of its block bring row `k`.
@@ -186,7 +191,7 @@ BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const In
   clusters_.image.setZero(3 * count);
   for (std::size_t c = 0; c < a.groups() * count; ++c)
     clusters_.image.segment<3>(3 * (c % count)) += clusters_.sums[c].head<3>().cast<double>();
-  return {total(0) + clusters_.motion.dot(clusters_.image), total(1), total(2)};
+  return {total(0) + sumOfProducts(clusters_.motion, clusters_.image), total(1), total(2)};
 }
 
 /// The sums of all groups, in their order.
