@@ -44,6 +44,8 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
       inflows(setup.grid, setup.inflows, params.seed),
       outflows(setup.grid, setup.outflows),
       levelSetAdvection(setup.grid),
+      crowding(setup.grid),
+      surfaceLift(setup.grid),
       reinitializer(setup.grid),
       velocityAdvector(setup.grid),
       acceleration(setup.grid),
@@ -133,8 +135,10 @@ void LiquidStages::transport(double dt, LiquidStepReport& report) {
   report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
   copyInParallel(state.velocity, surfaceVelocity);
   extrapolator.goOn(state.phi, solids, surfaceVelocity, surfaceStands);
+  crowding.prepare(state.phi, solids, surfaceVelocity);
   levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi, &solids);
   admitAir(state.grid, solids, surfaceVelocity, dt, state.phi);
+  crowding.find(state.phi, solids, surfaceVelocity, dt);
   MarkerScene scene = markerScene();
   scene.objects = &setup.solids;
   scene.middle = state.time + 0.5 * dt;
@@ -150,6 +154,15 @@ void LiquidStages::transport(double dt, LiquidStepReport& report) {
 void LiquidStages::correctSurface(bool flagsStand) {
   correction.apply(static_cast<float>(state.grid.dx), solids.sides, state.positive, state.negative, state.phi,
                    flagsStand);
+  extension.apply(state.phi);
+}
+
+/// phi becomes a distance again, and liquid that transport has crowded gets room at the surface.
+void LiquidStages::restoreDistance() {
+  reinitializer.apply(state.phi, &solids);
+  extension.apply(state.phi);
+  if (crowding.cells().empty()) return;
+  surfaceLift.apply(crowding.cells(), solids, state.phi, state.positive, state.negative);
   extension.apply(state.phi);
 }
 
@@ -298,7 +311,7 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("solids", [&] { moveSolids(dt); });
   clock.time("transport", [&] { transport(dt, report); });
   clock.time("correction", [&] { correctSurface(false); });
-  clock.time("reinitialize", [&] { reinitializer.apply(state.phi, &solids), extension.apply(state.phi); });
+  clock.time("reinitialize", [&] { restoreDistance(); });
   clock.time("escape", [&] { loseMarkers(); });
   clock.time("drops", [&] { moveDrops(dt, report); });
   clock.time("correction", [&] { correctSurface(true); });  // flagged by the two before

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fluid/air_pockets.h"
+#include "fluid/crowding.h"
 #include "fluid/drops.h"
 #include "fluid/extrapolation.h"
 #include "fluid/level_set.h"
@@ -19,6 +20,7 @@
 #include "fluid/pushes.h"
 #include "fluid/reinitialize.h"
 #include "fluid/solid_extension.h"
+#include "fluid/surface_lift.h"
 #include "fluid/velocity_advection.h"
 #include "fluid/viscosity.h"
 #include "fluid/volume_control.h"
@@ -44,6 +46,8 @@ struct LiquidStages {
 
   SolidExtension extension;
   LevelSetAdvection levelSetAdvection;
+  Crowding crowding;
+  SurfaceLift surfaceLift;
   Reinitializer reinitializer;
   VelocityAdvector velocityAdvector;
   PathAcceleration acceleration;
@@ -82,6 +86,7 @@ struct LiquidStages {
   void subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
   void moveSolids(double dt);
   void transport(double dt, LiquidStepReport& report);
+  void restoreDistance();
   void correctSurface(bool flagsStand);
   void loseMarkers();
   void moveDrops(double dt, LiquidStepReport& report);

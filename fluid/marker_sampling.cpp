@@ -52,6 +52,14 @@ void sampleAtMarkers(const DenseField<float>& phi, const WallSides& sides, const
   }
 }
 
+ValueAndGradient sampleOnSide(const DenseField<float>& phi, const FieldView& view, const WallSides& sides,
+                              const Eigen::Vector3i& c, const Eigen::Vector3f& x) {
+  if (!(sides.guard(c) & WallSides::kBeside)) return sampleCentredGradient(view, x.x(), x.y(), x.z());
+  const Eigen::Vector3f offset = x - c.cast<float>() - Eigen::Vector3f::Constant(0.5f);
+  const WallSides::Sample f = WallSides::sample(sides.read(phi, c), offset);
+  return {f.value, f.gradient.x(), f.gradient.y(), f.gradient.z()};
+}
+
 template <typename T>
 void findMarkerCells(const DenseField<T>& field, const MarkerSet& markers, std::size_t first,
                      std::size_t last, MarkerCells& cells) {

@@ -24,6 +24,11 @@ void sampleAtMarkers(const FieldView& field, const MarkerSet& markers, std::size
 void sampleAtMarkers(const DenseField<float>& phi, const WallSides& sides, const MarkerSet& markers,
                      std::size_t first, std::size_t last, MarkerValues& values);
 
+/// phi and its gradient per cell at a point of cell `c` [cell units] as its side of thin walls has them;
+/// `view` is that of phi.
+ValueAndGradient sampleOnSide(const DenseField<float>& phi, const FieldView& view, const WallSides& sides,
+                              const Eigen::Vector3i& c, const Eigen::Vector3f& x);
+
 /// Offsets of the cells that hold the markers [first, last) in a field with the strides of `field`. A marker
 /// on the high side of the grid belongs to the last cell.
 template <typename T>

@@ -4,6 +4,7 @@
 
 #include "fluid/counter_random.h"
 #include "fluid/marker_particles.h"
+#include "fluid/marker_sampling.h"
 #include "fluid/parallel.h"
 #include "fluid/sampling.h"
 
@@ -59,12 +60,7 @@ struct MarkerSeeder::Side {
     return toCells * (besideWall ? sides.valueIn(phi, c, {x, y, z}) : sampleCentred(view, x, y, z));
   }
   ValueAndGradient slope(const Eigen::Vector3i& c, float x, float y, float z) const {
-    const WallSides& sides = scene.solids.sides;
-    if (!(sides.guard(c) & WallSides::kBeside)) return sampleCentredGradient(view, x, y, z);
-    const Eigen::Vector3f offset =
-        Eigen::Vector3f(x, y, z) - c.cast<float>() - Eigen::Vector3f::Constant(0.5f);
-    const WallSides::Sample f = WallSides::sample(sides.read(phi, c), offset);
-    return {f.value, f.gradient.x(), f.gradient.y(), f.gradient.z()};
+    return sampleOnSide(phi, view, scene.solids.sides, c, {x, y, z});
   }
   /// The volume of air markers is read anew from the grid in each sub-step, that of liquid may be theirs
   /// alone.

@@ -5,6 +5,7 @@
 
 #include "fluid/conjugate_gradient.h"
 #include "fluid/connected_cells.h"
+#include "fluid/face_rows.h"
 #include "fluid/multigrid.h"
 #include "fluid/pocket_unknowns.h"
 #include "fluid/pressure_rows.h"
@@ -35,17 +36,6 @@ struct SquareSum {
 struct Surface {
   float coefficient;  // open / theta of its face
   double theta;       // true distance from the cell's centre [dx]
-};
-
-/// The rows of a face field that bound a row of cells: [side] across x and y, and the minus faces across z.
-struct FaceRows {
-  const float* x[2];
-  const float* y[2];
-  const float* z;
-  FaceRows(const MacField<float>& field, int i, int j)
-      : x{&field[0](i, j, 0), &field[0](i + 1, j, 0)},
-        y{&field[1](i, j, 0), &field[1](i, j + 1, 0)},
-        z(&field[2](i, j, 0)) {}
 };
 
 /// What flows out of the cells [begin, end) of a row through their faces, over dx^2 [m/s].
