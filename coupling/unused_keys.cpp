@@ -20,33 +20,31 @@ bool differs(const FoamParams& given, const FoamParams& preset) {
   return given.*member != preset.*member;
 }
 
+template <auto member, auto value>
+bool is(const FoamParams& given) {
+  return given.*member == value;
+}
+
 const ConditionalKey kConditionalKeys[] = {
     {"drag_coefficient", differs<&FoamParams::dragCoefficient>,
-     [](const FoamParams& p) { return p.dragLaw == foam::DragLaw::coefficient; },
-     "foam.drag_law is not \"coefficient\""},
+     is<&FoamParams::dragLaw, foam::DragLaw::coefficient>, "foam.drag_law is not \"coefficient\""},
     {"drag_coefficient_limit", differs<&FoamParams::dragCoefficientLimit>,
-     [](const FoamParams& p) { return p.dragLaw == foam::DragLaw::coefficient; },
-     "foam.drag_law is not \"coefficient\""},
+     is<&FoamParams::dragLaw, foam::DragLaw::coefficient>, "foam.drag_law is not \"coefficient\""},
     {"air_drag_coefficient", differs<&FoamParams::airDragCoefficient>,
-     [](const FoamParams& p) { return p.airDragLaw == foam::AirDragLaw::coefficient; },
-     "foam.air_drag_law is not \"coefficient\""},
+     is<&FoamParams::airDragLaw, foam::AirDragLaw::coefficient>, "foam.air_drag_law is not \"coefficient\""},
     {"spring_stiffness", differs<&FoamParams::springStiffness>,
-     [](const FoamParams& p) { return !p.springFromSurfaceTension; },
-     "foam.spring_from_surface_tension is true"},
+     is<&FoamParams::springFromSurfaceTension, false>, "foam.spring_from_surface_tension is true"},
     {"attraction", differs<&FoamParams::attraction>,
-     [](const FoamParams& p) { return p.attractionLaw == foam::AttractionLaw::coefficient; },
+     is<&FoamParams::attractionLaw, foam::AttractionLaw::coefficient>,
      "foam.attraction_law is not \"coefficient\""},
     {"wetness_aloft", differs<&FoamParams::wetnessAloft>,
-     [](const FoamParams& p) { return p.wetnessLaw == foam::WetnessLaw::height; },
-     "foam.wetness_law is not \"height\""},
+     is<&FoamParams::wetnessLaw, foam::WetnessLaw::height>, "foam.wetness_law is not \"height\""},
     {"wetness_height", differs<&FoamParams::wetnessHeight>,
-     [](const FoamParams& p) { return p.wetnessLaw == foam::WetnessLaw::height; },
-     "foam.wetness_law is not \"height\""},
+     is<&FoamParams::wetnessLaw, foam::WetnessLaw::height>, "foam.wetness_law is not \"height\""},
     {"volume_tolerance", differs<&FoamParams::volumeTolerance>,
-     [](const FoamParams& p) { return p.volumeMode == foam::VolumeMode::newton; },
-     "foam.volume_mode is not \"newton\""},
-    {"burst_median_life", differs<&FoamParams::burstMedianLife>,
-     [](const FoamParams& p) { return p.bursting; }, "foam.bursting is false"},
+     is<&FoamParams::volumeMode, foam::VolumeMode::newton>, "foam.volume_mode is not \"newton\""},
+    {"burst_median_life", differs<&FoamParams::burstMedianLife>, is<&FoamParams::bursting, true>,
+     "foam.bursting is false"},
 };
 
 }  // namespace

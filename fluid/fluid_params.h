@@ -29,7 +29,7 @@ struct FluidParams {
   int pressureIterations = 200;     ///< limit of the pressure solve, 1 to 10000
   bool volumeControl = true;        ///< hold every connected body at its booked volume (Kim et al. 2007)
   /// Relaxation time of the volume error [s], 0.001 to 10. What the level set loses steadily is made up for
-  /// besides; a sudden loss stands for about this long: in a violent dam break of 64^3 0.3 to 0.4 % of
+  /// besides; a sudden loss stands for about this long: in a violent dam break of 64^3 0.2 to 0.4 % of
   /// the liquid, with twice this time 0.41 to 0.56 %.
   double volumeControlTime = 0.0025;
 

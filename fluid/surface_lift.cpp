@@ -18,7 +18,7 @@ constexpr float kHighest = 0.5f;
 /// Lifts below this are left to volume control [dx], and those below a tenth of the least radius of a marker
 /// leave the markers where they are.
 constexpr float kLeast = 0.004f, kLeastMove = 0.01f;
-/// How far from the surface phi and markers move along [cells]: the markers' band and what they move.
+/// How far from the surface phi and markers move along [cells]: the markers' band and a cell.
 constexpr int kReach = 4;
 /// Steps of at most a cell on the way to the surface.
 constexpr int kMostSteps = 2 * kLevelSetBand;

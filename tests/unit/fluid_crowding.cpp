@@ -76,7 +76,7 @@ TEST(Crowding, WhatASpreadingVelocityShowsTooMuchIsNegative) {
 }
 
 /// A ball that falls upon a floor, without volume control: it lost 23 % of itself in its first hundredths of
-/// a second there. What is still lost is what half a cell of lift a sub-step cannot hold.
+/// a second there. The rest finds no way up to a surface, or asks for more than half a cell of lift.
 TEST(Crowding, ABallKeepsItsVolumeAsItStrikesTheFloor) {
   FluidParams params;
   params.volumeControl = false;

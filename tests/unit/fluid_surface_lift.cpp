@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "fluid/level_set.h"
 #include "fluid/surface_lift.h"
@@ -25,9 +25,7 @@ struct Pool {
 
   explicit Pool(std::vector<SolidObject> o = {})
       : objects(std::move(o)), solids(buildSolidBoundary(grid, closedWalls(), objects, 0)) {
-    if (!objects.empty()) {
-      solids.sides.find(solids);
-    }
+    if (!objects.empty()) solids.sides.find(solids);
     initialiseLevelSet(
         grid, [](const Eigen::Vector3d& x) { return x.y() - kHeight; }, phi);
   }
