@@ -30,6 +30,10 @@ constexpr float kInside = 1e-3f;
 /// Relative change of density that is left alone. Beyond smooth surfaces velocities diverge by such shares
 /// everywhere, to both sides; what strikes something is off by whole cells.
 constexpr float kNoChange = 0.01f;
+/// Blocks of so many cells a side in which crowded volumes are summed, and the layer over one of their sides
+/// [dx] by which the surface can be lifted without a trace: half of the largest lift.
+constexpr int kBlock = 4;
+constexpr float kLayer = 0.25f, kTaken = kLayer * kBlock * kBlock;
 
 /// Stands alone so that nothing it reads can alias what it writes.
 [[gnu::noinline]] void divergenceOfAirRow(const float* __restrict phi, const float* __restrict room,
@@ -55,6 +59,12 @@ float fastestFace(const MacVelocity& velocity, const Eigen::Vector3i& c) {
 }
 
 }  // namespace
+
+Crowding::Crowding(const GridSpec& grid)
+    : grid_(grid),
+      divergence_(grid.cells),
+      slabs_(grid.cells.x()),
+      blocks_((grid.cells.array() + kBlock - 1) / kBlock) {}
 
 void Crowding::prepare(const DenseField<float>& phi, const SolidBoundary& solids,
                        const MacVelocity& velocity) {
@@ -114,6 +124,17 @@ void Crowding::find(const DenseField<float>& phi, const SolidBoundary& solids, c
   });
   crowded_.clear();
   for (const auto& slab : slabs_) crowded_.insert(crowded_.end(), slab.begin(), slab.end());
+}
+
+double Crowding::excess() {
+  for (const CrowdedCell& c : crowded_) blocks_(c.cell / kBlock) += c.volume;
+  double sum = 0;
+  for (const CrowdedCell& c : crowded_) {
+    float& volume = blocks_(c.cell / kBlock);
+    if (volume > kTaken) sum += volume - kTaken;
+    volume = 0;
+  }
+  return sum;
 }
 
 }  // namespace spume::fluid

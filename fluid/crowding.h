@@ -22,7 +22,7 @@ struct CrowdedCell {
 /// Without this a ball that falls on a floor loses an eighth of itself at a CFL number of 4.
 class Crowding {
  public:
-  explicit Crowding(const GridSpec& grid) : grid_(grid), divergence_(grid.cells), slabs_(grid.cells.x()) {}
+  explicit Crowding(const GridSpec& grid);
 
   /// Before phi moves: keeps the divergence of `velocity`, which is going to carry it, in the cells of air.
   /// What sources and pockets give the liquid is meant to be there, and left out.
@@ -34,6 +34,9 @@ class Crowding {
             double dt);
   /// What the last call found, in the order of the cells.
   const std::vector<CrowdedCell>& cells() const { return crowded_; }
+  /// Of that the volume [dx^3] for which the surface nearby has no room in one go: whole bodies of liquid
+  /// that ran into something within the step.
+  double excess();
 
  private:
   float compression(const MacVelocity& velocity, float cellsPerSpeed, const Eigen::Vector3i& cell,
@@ -46,6 +49,7 @@ class Crowding {
   DenseField<float> divergence_;  ///< in air, 0 elsewhere [m/s per cell]
   std::vector<std::vector<CrowdedCell>> slabs_;
   std::vector<CrowdedCell> crowded_;
+  DenseField<float> blocks_;  ///< crowded volume of each block [dx^3]; 0 between calls
 };
 
 }  // namespace spume::fluid

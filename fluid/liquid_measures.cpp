@@ -31,6 +31,14 @@ double maxOrNan(double a, double b) { return std::isnan(a) || a > b ? a : b; }
   return broken ? std::numeric_limits<float>::quiet_NaN() : largest;
 }
 
+/// Largest magnitude of a row of faces, each between a cell and the one `back` before it, that lie in liquid.
+[[gnu::noinline]] float maxInnerSpeedOfRow(const float* __restrict phi, std::ptrdiff_t back,
+                                           const float* __restrict u, int count) {
+  float largest = 0;
+  for (int k = 0; k < count; ++k) largest = larger(phi[k] + phi[k - back] < 0 ? std::abs(u[k]) : 0, largest);
+  return largest;
+}
+
 /// Square of the cell's velocity, each component the mean square of its two faces.
 double meanSquareSpeed(const MacVelocity& velocity, int i, int j, int k) {
   double sum = 0;
@@ -58,6 +66,23 @@ double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity) {
   return reduceSlabs(n.x(), 0.0, slab, maxOrNan);
 }
 
+double maxInnerSpeed(const DenseField<float>& phi, const MacVelocity& velocity) {
+  const auto slabOf = [&](int axis) {
+    return [&, axis](int i) {
+      const DenseField<float>& u = velocity[axis];
+      float largest = 0;
+      for (int j = 0; j < u.size().y(); ++j)
+        largest =
+            larger(maxInnerSpeedOfRow(&phi(i, j, 0), phi.stride(axis), &u(i, j, 0), u.size().z()), largest);
+      return largest;
+    };
+  };
+  float largest = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    largest = larger(reduceSlabs(velocity[axis].size().x(), 0.0f, slabOf(axis), larger), largest);
+  return largest;
+}
+
 Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell) {
   Eigen::Vector3d mean;
   for (int a = 0; a < 3; ++a)
@@ -65,22 +90,16 @@ Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i&
   return mean;
 }
 
-void presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance, double density,
-                     const Eigen::Vector3d& gravity, MacVelocity& velocity) {
-  const double lead = std::min(state.lead, advance);
+void presentVelocity(const MacVelocity& earlier, const MacVelocity& later, double back,
+                     MacVelocity& velocity) {
+  const float before = static_cast<float>(back), after = static_cast<float>(1 - back);
   for (int a = 0; a < 3; ++a) {
-    const double fall = lead * gravity[a], toSpeed = lead / density;
-    const auto back = state.phi.stride(a);
-    const Eigen::Vector3i& size = state.velocity[a].size();
+    const Eigen::Vector3i& size = later[a].size();
     if (velocity[a].size() != size) velocity[a] = DenseField<float>(size);
     forEachRow(size, [&](int i, int j) {
-      const float *phi = &state.phi(i, j, 0), *open = &boundary.open[a](i, j, 0);
-      const float *gradient = &state.pressureGradient[a](i, j, 0), *led = &state.velocity[a](i, j, 0);
+      const float *old = &earlier[a](i, j, 0), *led = &later[a](i, j, 0);
       float* u = &velocity[a](i, j, 0);
-      for (int k = 0; k < size.z(); ++k) {
-        const bool moves = (phi[k] < 0 || phi[k - back] < 0) && open[k] > 0;
-        u[k] = moves ? static_cast<float>(led[k] - (fall - toSpeed * gradient[k])) : led[k];
-      }
+      for (int k = 0; k < size.z(); ++k) u[k] = after * led[k] + before * old[k];
     });
   }
 }

@@ -12,14 +12,19 @@ namespace spume::fluid {
 /// Largest magnitude of a velocity component on the faces of liquid cells [m/s]; NaN if any is not finite.
 double maxFaceSpeed(const DenseField<float>& phi, const MacVelocity& velocity);
 
+/// Largest magnitude on the faces whose middle lies in liquid [m/s]: without those beyond the surface of a
+/// barely wet cell, out of which must go what comes in, however little room it has.
+double maxInnerSpeed(const DenseField<float>& phi, const MacVelocity& velocity);
+
 /// Mean of a cell's faces [m/s].
 Eigen::Vector3d cellVelocity(const MacVelocity& velocity, const Eigen::Vector3i& cell);
 
-/// The velocity of a state at its own time: what it leads by, times the acceleration g - grad p/rho of the
-/// last projection, is taken back on the open faces of liquid cells; no further than the time `advance` [s]
-/// that acceleration acted, because that of an impact says nothing of the time before. Writes no ghosts.
-void presentVelocity(const LiquidState& state, const SolidBoundary& boundary, double advance, double density,
-                     const Eigen::Vector3d& gravity, MacVelocity& velocity);
+/// The velocity of the present time, between `earlier` and `later`: share `back` (0 to 1) of the way from the
+/// later one. Of second order, streams that have moved on since included. (Less the lead times g - grad
+/// p/rho, without those, a dam break's kinetic energy was 3 % too small at a CFL number of 2.5.) Writes no
+/// ghosts.
+void presentVelocity(const MacVelocity& earlier, const MacVelocity& later, double back,
+                     MacVelocity& velocity);
 
 struct LiquidEnergy {
   double kinetic = 0, potential = 0;  ///< [J]; potential is -rho g . x, so 0 at the world's origin

@@ -1,5 +1,7 @@
 #include "fluid/liquid_solver.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fluid/errors.h"
@@ -50,10 +52,15 @@ LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std
   StageClock clock;
   const double end = in.state.time + dt;
   try {
+    double longest = dt;  // a sub-step may be cut short; the next ones grow again by no more than twice
     for (double remaining = dt; remaining > 0;) {
-      const int left = in.subStepsFor(remaining);
-      in.subStep(remaining / left, gas, report, clock);
-      remaining = left == 1 ? 0 : remaining * (left - 1) / left;
+      const int left = std::max(in.subStepsFor(remaining), static_cast<int>(std::ceil(remaining / longest)));
+      const double asked = remaining / left, taken = in.subStep(asked, gas, report, clock);
+      if (taken < asked)
+        remaining -= taken;
+      else
+        remaining = left == 1 ? 0 : remaining * (left - 1) / left;
+      longest = 2 * taken;
     }
   } catch (const NumericalFailure&) {
     rollBack();

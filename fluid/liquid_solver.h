@@ -41,8 +41,8 @@ struct ImmersedGas {
 /// What a step did. Volumes in m^3.
 struct LiquidStepReport {
   int subSteps = 0;
-  double cfl = 0;               ///< largest of the sub-steps
-  double maxSpeed = 0;          ///< [m/s], in the liquid
+  double cfl = 0;               ///< largest of the sub-steps, by maxSpeed
+  double maxSpeed = 0;          ///< [m/s], in the liquid; of faces beyond its surface cfl/(cfl + 1)
   int pressureIterations = 0;   ///< summed over the sub-steps
   double pressureResidual = 0;  ///< worst relative residual
   double divergence = 0;        ///< largest |div u - source| dx in wet cells after projection [m/s]
@@ -54,7 +54,7 @@ struct LiquidStepReport {
   double dropVolume = 0;    ///< in them
   double launched = 0;      ///< became drops in this step
   double landed = 0;        ///< came back from drops in this step
-  PushReport pushes;              ///< what became of the step's
+  PushReport pushes;        ///< what became of the step's
   double kineticEnergy = 0, potentialEnergy = 0;  ///< of grid liquid and drops [J]
   std::size_t positiveMarkers = 0, negativeMarkers = 0;
   std::vector<StageTime> stages;

@@ -28,6 +28,15 @@ constexpr int kSubStepsPerDropVolume = 4;
 /// More sub-steps than this in one step mean that the velocity has run away.
 constexpr int kMaxSubSteps = 2000;
 
+/// Faces of wet cells beyond the surface may carry it so much further than `cfl` [cells]: velocities and
+/// walls are known that far.
+constexpr double kBeyondSurface = 1;
+static_assert(kBeyondSurface < kStencilReach - 1);
+
+/// Largest share of the liquid that a sub-step may crowd beyond what the surface can take; half of it is
+/// tried then. With 3e-5 a dam break takes more sub-steps and keeps its energy no better.
+constexpr double kMostExcess = 1e-4;
+
 /// Steps that fill an interval up to round-off must not be given one more.
 constexpr double kRoundOff = 1e-9;
 
@@ -72,7 +81,8 @@ void LiquidStages::start() {
   updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time, solids);
   extension.rebuild(solids);
   surfaceStands = false;
-  maxSpeed = maxFaceSpeed(state.phi, state.velocity);
+  lastAdvance = 0;
+  maxSpeed = carryingSpeed();
 }
 
 void LiquidStages::startPockets() {
@@ -88,6 +98,15 @@ void LiquidStages::resumeControl() {
   volumeControl.resume(bodies, state.volume);
   findPockets(state.time);
   pocketBooks.resume(pockets, state.volume.pocketGas);
+}
+
+/// Speed [m/s] that a sub-step is measured by: the largest of the liquid up to its surface. Faster ones
+/// beyond it, mostly where a thin sheet strikes a wall, count in part.
+double LiquidStages::carryingSpeed() const {
+  const double faces = maxFaceSpeed(state.phi, state.velocity);  // NaN goes on
+  if (!std::isfinite(faces)) return faces;
+  return std::max(maxInnerSpeed(state.phi, state.velocity),
+                  faces * params.cfl / (params.cfl + kBeyondSurface));
 }
 
 /// Time [s] in which the fastest liquid, speeding up under gravity, covers cfl cells, and in which the
@@ -118,8 +137,12 @@ int LiquidStages::subStepsFor(double dt) const {
   return std::max(1, static_cast<int>(steps));
 }
 
+bool LiquidStages::solidsMove() const {
+  return std::any_of(setup.solids.begin(), setup.solids.end(), [](const auto& s) { return s.moves; });
+}
+
 void LiquidStages::moveSolids(double dt) {
-  if (std::none_of(setup.solids.begin(), setup.solids.end(), [](const auto& s) { return s.moves; })) return;
+  if (!solidsMove()) return;
   psiBefore = solids.psi;
   if (!updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time + dt, solids)) {
     if (extension.hasUncovered()) extension.rebuild(solids);  // as a resumed run has it
@@ -131,14 +154,36 @@ void LiquidStages::moveSolids(double dt) {
   extension.apply(state.phi);
 }
 
-void LiquidStages::transport(double dt, LiquidStepReport& report) {
-  report.drained += volumeControl.bookOutflow(state.phi, solids, state.velocity, dt);
+/// Whether the surface has run so far into something that the sub-step should be half as long. It may be if
+/// that is still more than a cell, if the velocity, half a former sub-step ahead, then leads by no more than
+/// this one, and if solids are where they would be.
+bool LiquidStages::crowdsTooMuch(double dt) {
+  if (dt * maxSpeed < state.grid.dx || dt < 2 * (1 - kRoundOff) * state.lead || solidsMove()) return false;
+  return crowding.excess() * state.grid.cellVolume() > kMostExcess * bodies.volume;
+}
+
+/// Carries phi for dt [s], or for half of it where that saves liquid from an impact; returns the time taken.
+double LiquidStages::carrySurface(double dt) {
   copyInParallel(state.velocity, surfaceVelocity);
   extrapolator.goOn(state.phi, solids, surfaceVelocity, surfaceStands);
   crowding.prepare(state.phi, solids, surfaceVelocity);
-  levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, dt, state.phi, &solids);
-  admitAir(state.grid, solids, surfaceVelocity, dt, state.phi);
-  crowding.find(state.phi, solids, surfaceVelocity, dt);
+  copyInParallel(state.phi, phiBefore);
+  const auto carry = [&](double time) {
+    levelSetAdvection.advance(params.levelSetTransport, surfaceVelocity, time, state.phi, &solids);
+    admitAir(state.grid, solids, surfaceVelocity, time, state.phi);
+    crowding.find(state.phi, solids, surfaceVelocity, time);
+  };
+  carry(dt);
+  if (!crowdsTooMuch(dt)) return dt;
+  copyInParallel(phiBefore, state.phi);
+  carry(0.5 * dt);
+  return 0.5 * dt;
+}
+
+/// Carries surface and markers; returns the time taken.
+double LiquidStages::transport(double asked, LiquidStepReport& report) {
+  const double dt = carrySurface(asked);
+  report.drained += volumeControl.bookOutflow(phiBefore, solids, state.velocity, dt);
   MarkerScene scene = markerScene();
   scene.objects = &setup.solids;
   scene.middle = state.time + 0.5 * dt;
@@ -148,6 +193,7 @@ void LiquidStages::transport(double dt, LiquidStepReport& report) {
   extension.apply(state.phi);
   sorter.compact(state.positive);
   sorter.compact(state.negative);
+  return dt;
 }
 
 /// `flagsStand`: markers know already which of them have escaped.
@@ -265,7 +311,7 @@ void LiquidStages::leapAhead(double dt) {
   const HeldPockets held{pockets.label(), pockets.pockets(), pocketBooks.growth(pockets, dt)};
   projection.project(state.phi, solids, state.lead, source, state.velocity, state.pressureGradient, &held);
   extrapolate();
-  maxSpeed = maxFaceSpeed(state.phi, state.velocity);
+  maxSpeed = carryingSpeed();
 }
 
 /// Time [s] by which the velocity advances in a sub-step of dt, so that it leads the surface by half of the
@@ -302,14 +348,17 @@ void LiquidStages::checkFinite(double dt) const {
   throw NumericalFailure(message.str());
 }
 
-void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock) {
+/// A sub-step of `asked` [s] or less; returns the time it took.
+double LiquidStages::subStep(double asked, const ImmersedGas& gas, LiquidStepReport& report,
+                             StageClock& clock) {
+  double dt = asked;
   clock.time("pressure", [&] { leapAhead(dt); });
-  const double advance = velocityAdvance(dt);
   if (params.velocityAdvection == VelocityAdvection::trapezoidal)
     clock.time("extrapolation",
                [&] { acceleration.find(state, solids, params, extrapolator, surfaceStands); });
   clock.time("solids", [&] { moveSolids(dt); });
-  clock.time("transport", [&] { transport(dt, report); });
+  clock.time("transport", [&] { dt = transport(asked, report); });
+  const double advance = velocityAdvance(dt);
   clock.time("correction", [&] { correctSurface(false); });
   clock.time("reinitialize", [&] { restoreDistance(); });
   clock.time("escape", [&] { loseMarkers(); });
@@ -323,7 +372,7 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   clock.time("pressure", [&] { project(dt, advance, report); });
   clock.time("extrapolation", [&] { extrapolate(); });
   report.cfl = std::max(report.cfl, maxSpeed * dt / state.grid.dx);
-  maxSpeed = maxFaceSpeed(state.phi, state.velocity);
+  maxSpeed = carryingSpeed();
   checkFinite(dt);
   state.volume = volumeControl.ledger();
   state.volume.pocketGas = pocketBooks.gas();
@@ -332,10 +381,14 @@ void LiquidStages::subStep(double dt, const ImmersedGas& gas, LiquidStepReport& 
   lastAdvance = advance;
   ++state.subSteps;
   ++report.subSteps;
+  return dt;
 }
 
 void LiquidStages::measure(LiquidStepReport& report) {
-  presentVelocity(state, solids, lastAdvance, params.density, params.gravity, velocityNow);
+  // No further back than the velocity that has carried the surface here, if any has.
+  const bool carried = lastAdvance > 0;
+  presentVelocity(carried ? surfaceVelocity : state.velocity, state.velocity,
+                  carried ? std::clamp(state.lead / lastAdvance, 0.0, 1.0) : 0, velocityNow);
   const LiquidEnergy energy =
       liquidEnergy(state.grid, bodies.fraction(), velocityNow, params.density, params.gravity);
   const LiquidEnergy flying = energyOf(state.drops, params.density, params.gravity);

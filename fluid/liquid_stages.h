@@ -66,7 +66,7 @@ struct LiquidStages {
   Projection projection;
   MacVelocity surfaceVelocity;  // carries the surface and its markers
   MacVelocity velocityNow;      // without the state's lead; for measures
-  DenseField<float> source, psiBefore;
+  DenseField<float> source, psiBefore, phiBefore;
   DenseField<std::int32_t> cellMark;
 
   std::vector<Drop> landed;  // in this sub-step
@@ -74,18 +74,22 @@ struct LiquidStages {
   std::vector<EscapedMarker> escaped;
   std::vector<CollapsedPocket> collapsed;
   std::size_t escapedBefore = 0, collapsedBefore = 0;
-  double maxSpeed = 0;
+  double maxSpeed = 0;         ///< that is held to `cfl`, see carryingSpeed [m/s]
   double lastAdvance = 0;      ///< time that the velocity advanced in the last sub-step [s]
   bool pocketsFilled = false;  // after they were found in this sub-step
   bool surfaceStands = false;  ///< phi and solids are as in the last extrapolation
 
   MarkerScene markerScene() const { return {state.grid, params, setup.walls, solids}; }
+  double carryingSpeed() const;
   double longestStep() const;
   int subStepsFor(double dt) const;
 
-  void subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
+  double subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
+  bool solidsMove() const;
   void moveSolids(double dt);
-  void transport(double dt, LiquidStepReport& report);
+  bool crowdsTooMuch(double dt);
+  double carrySurface(double dt);
+  double transport(double dt, LiquidStepReport& report);
   void restoreDistance();
   void correctSurface(bool flagsStand);
   void loseMarkers();

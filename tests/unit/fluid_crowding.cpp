@@ -75,6 +75,20 @@ TEST(Crowding, WhatASpreadingVelocityShowsTooMuchIsNegative) {
               0.3 * gained);  // divergence is one number a cell, the surface lies within one
 }
 
+/// Of the cell's height that comes into no room the surface above is taken to have room for a quarter.
+TEST(Crowding, WhatOneLiftOfTheSurfaceCannotTakeIsExcess) {
+  Slab slab(2, 7, [](int) { return -3.0; });
+  const double crowded = slab.move(), area = kCells * kCells;
+  ASSERT_GT(crowded, 0.8);
+  EXPECT_NEAR(slab.crowding.excess() / area, crowded - 0.25, 1e-4);
+  EXPECT_NEAR(slab.crowding.excess() / area, crowded - 0.25, 1e-4);  // asked again
+  Slab slow(0.5, 7, [](int) { return -0.2; });
+  const double little = slow.move();
+  ASSERT_GT(little, 0.05);
+  ASSERT_LT(little, 0.25);
+  EXPECT_EQ(slow.crowding.excess(), 0);
+}
+
 /// A ball that falls upon a floor, without volume control: it lost 23 % of itself in its first hundredths of
 /// a second there. The rest finds no way up to a surface, or asks for more than half a cell of lift.
 TEST(Crowding, ABallKeepsItsVolumeAsItStrikesTheFloor) {

@@ -38,5 +38,26 @@ TEST(MaxFaceSpeed, DoesNotHideWhatIsNoNumber) {
   EXPECT_TRUE(std::isnan(maxFaceSpeed(water.phi, water.velocity)));
 }
 
+TEST(MaxInnerSpeed, CountsFacesInLiquidAndUpToItsSurfaceAlone) {
+  for (int axis = 0; axis < 3; ++axis) {
+    HalfFull water;
+    water.phi = levelSet(water.grid, [](const auto& x) { return x.y() - 0.48; });  // at 9.6 cells
+    water.velocity[axis](7, 4, 8) = -3;
+    water.velocity[1](7, 10, 8) = 9;  // of a wet cell, but in air
+    EXPECT_EQ(maxFaceSpeed(water.phi, water.velocity), 9);
+    EXPECT_EQ(maxInnerSpeed(water.phi, water.velocity), 3) << axis;
+    water.velocity[0](7, 9, 8) = 4;
+    EXPECT_EQ(maxInnerSpeed(water.phi, water.velocity), 4);
+  }
+}
+
+TEST(PresentVelocity, LiesBetweenTheTwoItIsGiven) {
+  const GridSpec grid = unitCube(6);
+  const MacVelocity earlier(grid.cells, 1), later(grid.cells, 2);
+  MacVelocity now;
+  presentVelocity(earlier, later, 0.25, now);
+  for (int a = 0; a < 3; ++a) EXPECT_EQ(now[a](2, 3, 4), 1.75f);
+}
+
 }  // namespace
 }  // namespace spume::fluid

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "fluid/liquid_solver.h"
 #include "tests/support/fluid_fields.h"
@@ -93,6 +96,47 @@ TEST(TimeStepping, EnergiesBelongToOneTime) {
   const double gained = last.kineticEnergy - first.kineticEnergy;
   ASSERT_LT(last.potentialEnergy, start);
   EXPECT_NEAR(gained / released, 1, 0.02);  // led by half a step it would be 1.1
+}
+
+TEST(TimeStepping, AStepOfNoTimeReportsWhatThereIs) {
+  FallingBall ball;
+  const LiquidStepReport report = ball.solver.step(0);
+  const double mass = 1000 * ball.solver.liquidVolume();
+  EXPECT_EQ(report.subSteps, 0);
+  EXPECT_EQ(report.kineticEnergy, 0);
+  EXPECT_NEAR(report.potentialEnergy, mass * kGravity * ball.centre.y(), 1e-3 * mass * kGravity);
+}
+
+/// A column of water let go in a closed box, in steps of dt; the reports until the end.
+std::vector<LiquidStepReport> columnFalls(int cells, double dt, double end) {
+  LiquidSolver solver({}, {unitCube(cells), closedWalls(), {}, {}},
+                      [](const Eigen::Vector3d& x) { return std::max(x.x() - 0.4, x.y() - 0.8); });
+  std::vector<LiquidStepReport> reports;
+  while (solver.state().time < end - 0.5 * dt) reports.push_back(solver.step(dt));
+  return reports;
+}
+
+/// A stream has moved on by the time of its velocity; its kinetic energy at the surface's time does not
+/// depend on how far. (Less the lead times the acceleration alone it was 2.6 % too small at a CFL number
+/// of 2.5.)
+TEST(TimeStepping, TheEnergyOfAStreamDoesNotDependOnTheStep) {
+  const double coarse = columnFalls(32, 0.02, 0.24).back().kineticEnergy;
+  const double fine = columnFalls(32, 0.005, 0.24).back().kineticEnergy;
+  EXPECT_NEAR(coarse / fine, 1, 0.012);
+}
+
+/// The front of the water strikes the other wall in a step that carries it over two cells. Not cut short, the
+/// step lost 0.6 % of all the water, and what volume control put back at the pressure of the impact raised
+/// the energy by 2.2 %.
+TEST(TimeStepping, AnImpactTakesNoVolumeAndGivesNoEnergy) {
+  const std::vector<LiquidStepReport> reports = columnFalls(40, 1.0 / 60, 0.4);
+  const double water = reports[0].liquidVolume;
+  double energy = std::numeric_limits<double>::infinity();
+  for (const LiquidStepReport& report : reports) {
+    EXPECT_NEAR((report.liquidVolume + report.dropVolume) / water, 1, 0.002);
+    EXPECT_LT(report.kineticEnergy + report.potentialEnergy, 1.001 * energy);
+    energy = report.kineticEnergy + report.potentialEnergy;
+  }
 }
 
 TEST(TimeStepping, StillLiquidStaysStillAsItsStepChanges) {
