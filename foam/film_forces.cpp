@@ -26,7 +26,7 @@ void FilmForces::compute(const BubbleStore& bubbles, const FoamTopology& topolog
   forEachIndex(n, [&](std::size_t i) { free_[i] = freeTension(tension[i], wetness[i]); });
   trace(bubbles, topology, neighbours, walls, tension);
   addPulls(bubbles, topology);
-  solveWeightChanges(topology, bubbles.radius, byWeight_, fixed, kPressureTolerance, pressure_);
+  solveWeightChanges(topology, neighbours, bubbles.radius, byWeight_, fixed, kPressureTolerance, pressure_);
   forEachIndex(n, [&](std::size_t i) {
     force_[i] += pressureOn(static_cast<std::int32_t>(i), bubbles, topology, neighbours);
   });

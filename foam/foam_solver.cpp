@@ -29,8 +29,9 @@ namespace {
 /// to 0.1 % but where cells appear or vanish, which is left to patches.
 constexpr int kVolumePasses = 5;
 /// Share of the cells that a patch may begin with; more are corrected with all others. About where both cost
-/// the same.
-constexpr double kFewCells = 0.05;
+/// the same: once all have been corrected the others stay as they are; before, they are as near the tolerance
+/// as chance has it, and what a patch corrects puts some of them off it in turn.
+constexpr double kFewCells = 0.05, kFewAtFirst = 0.01;
 
 /// Share of the pairs that may move faster than the step resolves: bubbles that rise into a pile. Contacts
 /// are implicit and stop them within a step of any length; a froth that moves as a whole is more than these.
@@ -155,8 +156,9 @@ void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
     noteVolumes(topology, next);
     const std::vector<std::int32_t> off = cellsOff(next, params.volumeTolerance);
     if (off.empty() || pass == kVolumePasses) return;
-    if (static_cast<double>(off.size()) > kFewCells * static_cast<double>(next.size()))
-      projectVolumes(params, topology, {}, next);
+    const double few = pass == 0 ? kFewAtFirst : kFewCells;
+    if (static_cast<double>(off.size()) > few * static_cast<double>(next.size()))
+      projectVolumes(params, topology, neighbours, {}, next);
     else if (patch.settle(params, walls, topology, neighbours, next))
       return;
   }

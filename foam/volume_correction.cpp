@@ -63,23 +63,23 @@ void correctVolumes(const FoamParams& params, const FoamTopology& topology, doub
   });
 }
 
-void projectVolumes(const FoamParams& params, const FoamTopology& topology, const std::vector<char>& fixed,
-                    BubbleStore& bubbles) {
+void projectVolumes(const FoamParams& params, const FoamTopology& topology, const Neighbours& neighbours,
+                    const std::vector<char>& fixed, BubbleStore& bubbles) {
   std::vector<double> missing(bubbles.size(), 0.0), change;
   std::vector<char> stays = fixed;
   stays.resize(bubbles.size(), 0);
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (!hasCell(topology, i) || stays[i]) continue;
+  forEachIndex(missing.size(), [&](std::size_t i) {
+    if (!hasCell(topology, i) || stays[i]) return;
     missing[i] = bubbles.gas[i] - topology.volume[i];
     stays[i] = bubbles.clamped[i] && missing[i] > 0;
-  }
-  solveWeightChanges(topology, bubbles.radius, missing, stays, kNewtonTolerance, change);
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (!hasCell(topology, i) || stays[i]) continue;
+  });
+  solveWeightChanges(topology, neighbours, bubbles.radius, missing, stays, kNewtonTolerance, change);
+  forEachIndex(missing.size(), [&](std::size_t i) {
+    if (!hasCell(topology, i) || stays[i]) return;
     const double r = bubbles.radius[i], wanted = std::sqrt(std::max(r * r + change[i], 0.0));
     const double least = gasRadius(bubbles.gas[i]);  // no smaller ball holds the gas
     setRadius(params, i, std::max(least, std::min(wanted, r * (1 + kLargestGrowth))), bubbles);
-  }
+  });
 }
 
 }  // namespace spume::foam

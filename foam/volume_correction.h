@@ -6,6 +6,7 @@
 #include "foam/bubble_store.h"
 #include "foam/foam_params.h"
 #include "foam/foam_topology.h"
+#include "foam/neighbours.h"
 
 namespace spume::foam {
 
@@ -31,10 +32,10 @@ std::vector<std::int32_t> cellsOff(const BubbleStore& bubbles, double tolerance)
 /// One Newton step of all radii together, by the derivatives of the volumes: what one cell gains its
 /// neighbours do not lose. r0 <= r <= limit r0; flags the clamped, which stay as they are while they lack
 /// gas, so that their neighbours come to hold theirs. `fixed`: rows whose balls stay as they are; empty where
-/// none is. Converges in a few steps, each after measuring anew. Deviation: [Busaryev 2012, 5.2] lets the
-/// volumes of moving bubbles lag; held in full they make a foam stiffer, which forces/volume_response brings
-/// into the implicit step.
-void projectVolumes(const FoamParams& params, const FoamTopology& topology, const std::vector<char>& fixed,
-                    BubbleStore& bubbles);
+/// none is; `neighbours` of the topology. Converges in a few steps, each after measuring anew. Deviation:
+/// [Busaryev 2012, 5.2] lets the volumes of moving bubbles lag; held in full they make a foam stiffer, which
+/// forces/volume_response brings into the implicit step.
+void projectVolumes(const FoamParams& params, const FoamTopology& topology, const Neighbours& neighbours,
+                    const std::vector<char>& fixed, BubbleStore& bubbles);
 
 }  // namespace spume::foam

@@ -65,7 +65,8 @@ void VolumePatch::gather(const std::vector<NearWalls>& walls, const BubbleStore&
 void VolumePatch::correct(const FoamParams& params, const FoamTopology& topology,
                           const Neighbours& neighbours) {
   takePart(topology, neighbours, rows_, place_, topology_);
-  projectVolumes(params, topology_, fixed_, part_);
+  neighbours_.build(rows_.size(), topology_.overlaps);
+  projectVolumes(params, topology_, neighbours_, fixed_, part_);
   cells_.compute(part_, walls_, topology_);
 }
 

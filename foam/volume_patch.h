@@ -45,6 +45,7 @@ class VolumePatch {
   std::vector<NearWalls> walls_;
   WallCells cells_;
   FoamTopology topology_;
+  Neighbours neighbours_;
   PartReplacer replacer_;
 };
 

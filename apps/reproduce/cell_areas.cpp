@@ -17,7 +17,7 @@ constexpr double kLargestGrowth = 0.25, kNewtonTolerance = 1e-3;
 
 void CellAreas::measure(const std::vector<Overlap>& overlaps, const std::vector<double>& radius) {
   const auto discs = static_cast<std::int32_t>(area_.size());
-  cells_.films.clear(), edge_.clear();
+  cells_.overlaps.clear(), cells_.films.clear(), edge_.clear();
   cells_.volume.resize(area_.size()), cells_.freeArea.resize(area_.size());
   std::vector<CuttingLine> lines;
   DiscCell cell;
@@ -32,9 +32,11 @@ void CellAreas::measure(const std::vector<Overlap>& overlaps, const std::vector<
     cells_.volume[i] = cell.area, cells_.freeArea[i] = cell.rim;
     for (std::size_t k = 0; k < lines.size(); ++k) {
       const Overlap& overlap = overlaps[edge_.size()];
-      if (i < overlap.j && cell.edge[k] > 0)
-        cells_.films.push_back({i, overlap.j, overlap.distance, lines[k].height, cell.edge[k]});
       edge_.push_back(cell.edge[k]);
+      if (i > overlap.j || !(cell.edge[k] > 0)) continue;
+      const auto film = static_cast<std::int32_t>(cells_.films.size());
+      cells_.overlaps.push_back({i, overlap.j, overlap.distance, film});
+      cells_.films.push_back({i, overlap.j, overlap.distance, lines[k].height, cell.edge[k]});
     }
   }
 }
@@ -51,7 +53,10 @@ void CellAreas::improve(std::vector<double>& radius) const {
   const std::vector<double> before(radius.begin(), radius.begin() + static_cast<std::ptrdiff_t>(discs));
   std::vector<double> missing(discs), change;
   for (std::size_t i = 0; i < discs; ++i) missing[i] = area_[i] - cells_.volume[i];
-  foam::solveWeightChanges(cells_, before, missing, std::vector<char>(discs, 0), kNewtonTolerance, change);
+  foam::Neighbours neighbours;
+  neighbours.build(discs, cells_.overlaps);
+  foam::solveWeightChanges(cells_, neighbours, before, missing, std::vector<char>(discs, 0), kNewtonTolerance,
+                           change);
   for (std::size_t i = 0; i < discs; ++i) {
     const double wanted = std::sqrt(std::max(before[i] * before[i] + change[i], 0.0));
     const double least = std::sqrt(area_[i] / std::numbers::pi);

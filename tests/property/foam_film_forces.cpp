@@ -75,8 +75,8 @@ struct MeasuredBubbles {
     std::vector<double> missing(volume.size()), change;
     for (int step = 0; step < 6; ++step) {
       for (std::size_t i = 0; i < volume.size(); ++i) missing[i] = volume[i] - topology.volume[i];
-      solveWeightChanges(topology, bubbles.radius, missing, std::vector<char>(volume.size(), 0), 1e-9,
-                         change);
+      solveWeightChanges(topology, neighbours, bubbles.radius, missing, std::vector<char>(volume.size(), 0),
+                         1e-9, change);
       for (std::size_t i = 0; i < volume.size(); ++i)
         bubbles.radius[i] = std::sqrt(bubbles.radius[i] * bubbles.radius[i] + change[i]);
       measure();

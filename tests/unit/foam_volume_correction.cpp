@@ -93,6 +93,12 @@ BubbleStore denseFoam() {
   return bubbles;
 }
 
+void measure(BubbleStore& bubbles, FoamTopology& topology, Neighbours& neighbours) {
+  PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
+  neighbours.build(bubbles.size(), topology.overlaps);
+  noteVolumes(topology, bubbles);
+}
+
 TEST(VolumeCorrection, NewtonSolvesTheCellsOfAFoamTogether) {
   // The drawn radii are off by 2 %; each step squares what is left.
   BubbleStore bubbles = denseFoam();
@@ -104,10 +110,10 @@ TEST(VolumeCorrection, NewtonSolvesTheCellsOfAFoamTogether) {
   std::vector<double> errors;
   for (int step = 0; step < 6; ++step) {
     FoamTopology topology;
-    PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
-    noteVolumes(topology, bubbles);
+    Neighbours neighbours;
+    measure(bubbles, topology, neighbours);
     errors.push_back(worstVolumeError(bubbles));
-    projectVolumes(params, topology, {}, bubbles);
+    projectVolumes(params, topology, neighbours, {}, bubbles);
   }
   EXPECT_GT(errors[0], 0.01);
   EXPECT_LT(errors[2], 0.05 * errors[0]);
@@ -127,10 +133,10 @@ TEST(VolumeCorrection, NewtonHoldsTheNeighboursOfBallsAtTheirLimit) {
   params.radiusLimit = stretch[stretch.size() * 9 / 10];
   for (int step = 0;; ++step) {
     FoamTopology topology;
-    PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
-    noteVolumes(topology, bubbles);
+    Neighbours neighbours;
+    measure(bubbles, topology, neighbours);
     if (step == 12) break;
-    projectVolumes(params, topology, {}, bubbles);
+    projectVolumes(params, topology, neighbours, {}, bubbles);
   }
   EXPECT_GT(std::count(bubbles.clamped.begin(), bubbles.clamped.end(), 1), 10);
   EXPECT_LT(worstVolumeError(bubbles), kVolumeTolerance);
@@ -152,11 +158,11 @@ TEST(VolumeCorrection, NewtonBringsBackACellThatIsAllButCoveredOrLetGo) {
   params.volumeTolerance = kVolumeTolerance;
   params.radiusLimit = 10;
   FoamTopology topology;
+  Neighbours neighbours;
   for (int step = 0;; ++step) {
-    PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
-    noteVolumes(topology, bubbles);
+    measure(bubbles, topology, neighbours);
     if (step == 20) break;
-    projectVolumes(params, topology, {}, bubbles);
+    projectVolumes(params, topology, neighbours, {}, bubbles);
   }
   EXPECT_LT(worstVolumeError(bubbles), kVolumeTolerance);
   for (const std::int32_t i : disturbed) {
@@ -164,12 +170,6 @@ TEST(VolumeCorrection, NewtonBringsBackACellThatIsAllButCoveredOrLetGo) {
       EXPECT_GE(bubbles.radius[i], gasRadius(bubbles.gas[i])) << i;
     }
   }
-}
-
-void measure(BubbleStore& bubbles, FoamTopology& topology, Neighbours& neighbours) {
-  PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, topology);
-  neighbours.build(bubbles.size(), topology.overlaps);
-  noteVolumes(topology, bubbles);
 }
 
 /// The same pairs and films, areas and volumes to round-off of a sum over a dozen films.
@@ -294,12 +294,15 @@ TEST(VolumeCorrection, WeightChangesAreTheInverseOfTheDerivatives) {
   // accuracy, V2: dV0/dw1 = -.325794794, dV1/dw1 = 3.257947937.
   Balls balls;
   balls.add({0, 0, 0}, 1), balls.add({1.2, 0, 0}, 0.6);
+  const FoamTopology cells = powerCellsOf(balls);
+  Neighbours neighbours;
+  neighbours.build(balls.size(), cells.overlaps);
   std::vector<double> change;
-  solveWeightChanges(powerCellsOf(balls), balls.radius, {-0.325794794e-3, 3.257947937e-3}, {0, 0}, 1e-12,
+  solveWeightChanges(cells, neighbours, balls.radius, {-0.325794794e-3, 3.257947937e-3}, {0, 0}, 1e-12,
                      change);
   EXPECT_NEAR(change[0], 0, 1e-9);
   EXPECT_NEAR(change[1], 1e-3, 1e-9);
-  solveWeightChanges(powerCellsOf(balls), balls.radius, {1, 2 * 3.257947937e-3}, {1, 0}, 1e-12, change);
+  solveWeightChanges(cells, neighbours, balls.radius, {1, 2 * 3.257947937e-3}, {1, 0}, 1e-12, change);
   EXPECT_EQ(change[0], 0);  // whatever it wants
   EXPECT_NEAR(change[1], 2e-3, 1e-9);
 }
