@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "coupling/clearance_grid.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
 #include "foam/counter_random.h"
@@ -28,30 +29,6 @@ std::uint64_t streamOf(std::uint64_t seed, std::size_t source) {
   return foam::CounterRandom(seed, source, kTimePurpose).bits();
 }
 
-/// Balls that new bubbles should not cover.
-struct Neighbourhood {
-  std::vector<Eigen::Vector3d> position;
-  std::vector<double> radius;
-
-  Neighbourhood(const foam::BubbleStore& bubbles, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-                double reach) {
-    for (std::size_t i = 0; i < bubbles.size(); ++i) {
-      const double r = bubbles.radius[i] + reach;
-      const Eigen::Vector3d& x = bubbles.position[i];
-      if ((x.array() > lower.array() - r).all() && (x.array() < upper.array() + r).all())
-        add(x, bubbles.radius[i]);
-    }
-  }
-  void add(const Eigen::Vector3d& x, double r) { position.push_back(x), radius.push_back(r); }
-  /// Room between a new ball and the nearest other [m], < 0 where they overlap.
-  double clearance(const Eigen::Vector3d& x, double r) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < position.size(); ++i)
-      least = std::min(least, (x - position[i]).norm() - radius[i] - r);
-    return least;
-  }
-};
-
 /// Where one source finds places.
 class Region {
  public:
@@ -61,7 +38,15 @@ class Region {
         liquid_(liquid),
         lower_(bounds(spec.shape).first.cwiseMax(lower)),
         upper_(bounds(spec.shape).second.cwiseMin(upper)),
-        near_(bubbles, lower_, upper_, spec.radius.most) {}
+        near_(lower_, upper_, (spec.radius.least + spec.radius.most) / 2) {
+    const double reach = spec.radius.most;
+    for (std::size_t i = 0; i < bubbles.size(); ++i) {
+      const double r = bubbles.radius[i] + reach;
+      const Eigen::Vector3d& x = bubbles.position[i];
+      if ((x.array() > lower_.array() - r).all() && (x.array() < upper_.array() + r).all())
+        near_.add(x, bubbles.radius[i]);
+    }
+  }
 
   /// Finds a place for a bubble of radius r: the first clear of solids and bubbles, else the one with most
   /// room, as in a gap narrower than the bubble. False if all are in solids or, where it matters, out of the
@@ -97,7 +82,7 @@ class Region {
   const BubbleSourceSpec& spec_;
   const foam::LiquidSampler& liquid_;
   Eigen::Vector3d lower_, upper_;
-  Neighbourhood near_;
+  ClearanceGrid near_;
 };
 
 }  // namespace

@@ -97,7 +97,7 @@ void BubbleSupply::dissolve(double now, double dt, const foam::LiquidSampler& li
   state.dissolved -= change.drained * concentration(state, before) / solution_.molesPerVolume();
   if (bubbles.size() == 0) return;
   foam::Surroundings around;
-  around.sample(liquid, bubbles.positions());
+  around.sampleFlow(liquid, bubbles.positions());
   std::vector<std::uint8_t> dissolved;
   double taken = exchangeGas(solution_, concentration(state, change.volume), around, dt, bubbles, dissolved);
   for (std::size_t i = 0; i < dissolved.size(); ++i) {

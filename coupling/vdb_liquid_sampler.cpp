@@ -3,7 +3,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <mutex>
+
 #include "coupling/trilinear.h"
+#include "fluid/parallel.h"
 
 namespace spume::coupling {
 namespace {
@@ -12,7 +15,9 @@ constexpr Eigen::Index kBatch = 512;  // points a task: some 50 us of work
 constexpr double kDepthOfPressure =
     0.5;                               // [dx] under the surface, where all pressures round a point are known
 constexpr double kLeastWeight = 1e-3;  // of a face, so that a point on a closed one still asks its neighbours
-constexpr double kLeastSlope = 1e-3;   // |grad phi| below which there is no way to the surface
+constexpr Eigen::Index kManyPoints =
+    4096;  // from which on looking at all faces of the grid first costs less than at those round each point
+constexpr double kLeastSlope = 1e-3;  // |grad phi| below which there is no way to the surface
 
 const Eigen::Vector3d kCellCentre = Eigen::Vector3d::Constant(0.5);
 
@@ -38,6 +43,8 @@ struct VdbLiquidSampler::Source {
   Eigen::Vector3d hydrostatic{0, 0, 0};                      ///< used instead of it [Pa/m]
   SolidVelocity solidVelocity;
   LiquidFrame frame;  ///< kept if cached
+  mutable std::once_flag facesLookedAt;
+  mutable fluid::MacField<std::uint8_t> isKnown;  ///< by face: knowsPressure, once it has been asked of many
 
   Eigen::Vector3d insideGrid(const Eigen::Vector3d& x) const {
     return x.cwiseMax(grid.origin).cwiseMin(grid.upper());
@@ -111,7 +118,16 @@ struct VdbLiquidSampler::Source {
     return solids->open[axis](face) > 0 && std::min((*phi)(plus), (*phi)(minus)) < 0;
   }
 
-  double gradPressureAt(int axis, const Eigen::Vector3d& inCells) const {
+  void lookAtFaces() const {
+    isKnown = fluid::MacField<std::uint8_t>(grid.cells);
+    for (int axis = 0; axis < 3; ++axis)
+      fluid::forEachCell(isKnown[axis].size(), [&](int i, int j, int k) {
+        isKnown[axis](i, j, k) = knowsPressure(axis, {i, j, k});
+      });
+  }
+
+  /// `looked`: all faces have been looked at.
+  double gradPressureAt(int axis, const Eigen::Vector3d& inCells, bool looked) const {
     const fluid::DenseField<float>& field = (*pressureGradient)[axis];
     const TrilinearCell cell = locate(field.size(), firstFace(axis), inCells);
     const TrilinearSamples samples(field, cell);
@@ -123,7 +139,7 @@ struct VdbLiquidSampler::Source {
     for (int i = 0; i < 8; ++i) {
       const Eigen::Vector3i face(cell.corner[0] + (i >> 2), cell.corner[1] + (i >> 1 & 1),
                                  cell.corner[2] + (i & 1));
-      if (!knowsPressure(axis, face)) continue;
+      if (!(looked ? isKnown[axis](face) != 0 : knowsPressure(axis, face))) continue;
       const double share = std::max(weight[i], kLeastWeight);
       sum += share * samples.value[i];
       known += share;
@@ -133,10 +149,11 @@ struct VdbLiquidSampler::Source {
     return faces ? sum / known : 0.0;
   }
 
-  Eigen::Vector3d gradPressureAt(const Eigen::Vector3d& x) const {
+  Eigen::Vector3d gradPressureAt(const Eigen::Vector3d& x, bool looked) const {
     if (!pressureGradient) return hydrostatic;
     const Eigen::Vector3d inCells = grid.toCells(insideGrid(underSurface(x)));
-    return {gradPressureAt(0, inCells), gradPressureAt(1, inCells), gradPressureAt(2, inCells)};
+    return {gradPressureAt(0, inCells, looked), gradPressureAt(1, inCells, looked),
+            gradPressureAt(2, inCells, looked)};
   }
 };
 
@@ -179,8 +196,11 @@ void VdbLiquidSampler::velocity(foam::Points x, foam::Vectors out) const {
 }
 
 void VdbLiquidSampler::gradPressure(foam::Points x, foam::Vectors out) const {
-  forEachPoint(x.cols(),
-               [&](Eigen::Index i) { out.col(i) = source_->gradPressureAt(Eigen::Vector3d(x.col(i))); });
+  const bool look = source_->pressureGradient && x.cols() >= kManyPoints;
+  if (look) std::call_once(source_->facesLookedAt, [&] { source_->lookAtFaces(); });
+  forEachPoint(x.cols(), [&](Eigen::Index i) {
+    out.col(i) = source_->gradPressureAt(Eigen::Vector3d(x.col(i)), look);
+  });
 }
 
 void VdbLiquidSampler::psi(foam::Points x, foam::Scalars out) const {

@@ -44,9 +44,10 @@ void BubbleStore::remove(const std::vector<std::uint8_t>& flags) {
   if (flags.size() != size())
     throw InvalidParameter("BubbleStore::remove: " + std::to_string(flags.size()) + " flags for " +
                            std::to_string(size()) + " bubbles; give one flag per bubble");
-  const auto removeFrom = [&flags](auto& column) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < flags.size(); ++i)
+  const auto first = std::find_if(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; });
+  const auto removeFrom = [&](auto& column) {
+    auto kept = static_cast<std::size_t>(first - flags.begin());
+    for (std::size_t i = kept; i < flags.size(); ++i)
       if (!flags[i]) column[kept++] = column[i];
     column.resize(kept);
   };

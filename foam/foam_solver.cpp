@@ -14,6 +14,7 @@
 #include "foam/lifetime.h"
 #include "foam/near_walls.h"
 #include "foam/neighbours.h"
+#include "foam/order_statistic.h"
 #include "foam/parallel.h"
 #include "foam/space_order.h"
 #include "foam/surroundings.h"
@@ -106,6 +107,7 @@ struct FoamSolver::Internals {
 
   void take(const BubbleStore& bubbles);
   void giveBack(BubbleStore& bubbles);
+  std::vector<std::ptrdiff_t> rowsOfTopology(const BubbleStore& bubbles) const;
   void findWalls(const LiquidSampler& liquid);
   void measure();
   void noteImpulses(double dt);
@@ -127,6 +129,20 @@ void FoamSolver::Internals::take(const BubbleStore& bubbles) {
 void FoamSolver::Internals::giveBack(BubbleStore& bubbles) {
   std::erase(rowOf, -1);
   bubbles.gather(next, rowOf);
+}
+
+/// The row of `bubbles` behind each row of the topology, or -1. They have just been given back as a rule, so
+/// it is known where.
+std::vector<std::ptrdiff_t> FoamSolver::Internals::rowsOfTopology(const BubbleStore& bubbles) const {
+  std::vector<std::ptrdiff_t> rows(topologyId.size(), -1);
+  for (std::size_t row = 0; row < rowOf.size(); ++row)
+    if (static_cast<std::size_t>(rowOf[row]) < rows.size())
+      rows[rowOf[row]] = static_cast<std::ptrdiff_t>(row);
+  forEachIndex(rows.size(), [&](std::size_t k) {
+    const auto row = static_cast<std::size_t>(rows[k]);
+    if (row >= bubbles.size() || bubbles.id[row] != topologyId[k]) rows[k] = bubbles.find(topologyId[k]);
+  });
+  return rows;
 }
 
 /// Finds the walls that may cut a bubble, at any radius it may take.
@@ -298,21 +314,16 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
 
 double FoamSolver::stableDt(const BubbleStore& bubbles) const {
   const Internals& s = *internals_;
-  std::vector<std::ptrdiff_t> row(s.topologyId.size());
-  for (std::size_t k = 0; k < row.size(); ++k) row[k] = bubbles.find(s.topologyId[k]);
+  const std::vector<std::ptrdiff_t> row = s.rowsOfTopology(bubbles);
   constexpr double kAny = std::numeric_limits<double>::max();
-  std::vector<double> allowed(s.topology.overlaps.size(), kAny);
+  std::vector<double> allowed(s.topology.overlaps.size());
   forEachIndex(allowed.size(), [&](std::size_t p) {
     const std::ptrdiff_t i = row[s.topology.overlaps[p].i], j = row[s.topology.overlaps[p].j];
-    if (i < 0 || j < 0) return;
-    const double motion = (bubbles.velocity[i] - bubbles.velocity[j]).norm();
-    if (motion > 0) allowed[p] = 0.5 * std::min(bubbles.radius[i], bubbles.radius[j]) / motion;
+    const double motion = i < 0 || j < 0 ? 0 : (bubbles.velocity[i] - bubbles.velocity[j]).norm();
+    allowed[p] = motion > 0 ? 0.5 * std::min(bubbles.radius[i], bubbles.radius[j]) / motion : kAny;
   });
   if (allowed.empty()) return kAny;
-  const auto decides =
-      allowed.begin() + static_cast<std::ptrdiff_t>(kArrivals * static_cast<double>(allowed.size()));
-  std::nth_element(allowed.begin(), decides, allowed.end());
-  return *decides;
+  return orderStatistic(allowed, static_cast<std::size_t>(kArrivals * static_cast<double>(allowed.size())));
 }
 
 }  // namespace spume::foam

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "foam/counter_random.h"
+#include "foam/parallel.h"
 #include "foam/volume_correction.h"
 
 namespace spume::foam {
@@ -117,10 +118,13 @@ std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& to
                                 double dt, BubbleStore& bubbles) {
   std::vector<EndedLife> ended;
   std::vector<std::uint8_t> enclosed(bubbles.size(), 0);
-  for (std::size_t i = 0; i < bubbles.size(); ++i) {
-    const double age = advanceClocks(params, supported[i], psi[static_cast<Eigen::Index>(i)], dt, i, bubbles);
-    if (age < 0) continue;
-    ended.push_back({i, age});
+  std::vector<double> age(bubbles.size());
+  forEachIndex(age.size(), [&](std::size_t i) {
+    age[i] = advanceClocks(params, supported[i], psi[static_cast<Eigen::Index>(i)], dt, i, bubbles);
+  });
+  for (std::size_t i = 0; i < age.size(); ++i) {
+    if (age[i] < 0) continue;
+    ended.push_back({i, age[i]});
     enclosed[i] = !isOpen(topology, bubbles, i);
   }
   if (ended.empty()) return ended;

@@ -17,16 +17,22 @@ void requireFinite(const Field& field, const char* name) {
 
 void Surroundings::sample(const LiquidSampler& liquid, Points x) {
   sampleSolids(liquid, x);
+  sampleFlow(liquid, x);
   const Eigen::Index n = x.cols();
-  phi.resize(n);
-  for (auto* field : {&gradPhi, &liquidVelocity, &gradPressure}) field->resize(3, n);
+  gradPhi.resize(3, n), gradPressure.resize(3, n);
+  if (n == 0) return;
+  liquid.gradPhi(x, gradPhi);
+  liquid.gradPressure(x, gradPressure);
+  requireFinite(gradPhi, "gradPhi"), requireFinite(gradPressure, "gradPressure");
+}
+
+void Surroundings::sampleFlow(const LiquidSampler& liquid, Points x) {
+  const Eigen::Index n = x.cols();
+  phi.resize(n), liquidVelocity.resize(3, n);
   if (n == 0) return;
   liquid.phi(x, phi);
-  liquid.gradPhi(x, gradPhi);
   liquid.velocity(x, liquidVelocity);
-  liquid.gradPressure(x, gradPressure);
-  requireFinite(phi, "phi"), requireFinite(gradPhi, "gradPhi");
-  requireFinite(liquidVelocity, "velocity"), requireFinite(gradPressure, "gradPressure");
+  requireFinite(phi, "phi"), requireFinite(liquidVelocity, "velocity");
 }
 
 void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {

@@ -22,6 +22,8 @@ struct Surroundings {
   void sample(const LiquidSampler& liquid, Points x);
   /// The same of the solids alone; what is of the liquid has no meaning then.
   void sampleSolids(const LiquidSampler& liquid, Points x);
+  /// The same of phi and the liquid's velocity alone; nothing else has a meaning then.
+  void sampleFlow(const LiquidSampler& liquid, Points x);
 };
 
 }  // namespace spume::foam

@@ -31,9 +31,12 @@ class WallCells {
   void listNeighbours(Neighbours& out) const { cells_.listNeighbours(out); }
 
  private:
+  void listCut(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
   void addPlanes(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
 
   PowerCells cells_;
+  std::vector<std::uint8_t> isCut_;
+  std::vector<std::size_t> cut_;           ///< bubbles with a wall so near: few of all
   std::vector<Eigen::Vector3d> position_;  ///< of the bubbles, then of the balls behind planes [m]
   std::vector<double> radius_;
   std::vector<std::uint64_t> id_;

@@ -153,9 +153,11 @@ TEST(VdbLiquidSampler, EdgesOfTheDomainKeepBothWalls) {
   EXPECT_NEAR(psi[1], -0.01, kFloatError);
 }
 
-TEST(VdbLiquidSampler, PressureGradientIsContinuedAboveTheSurface) {
-  constexpr double kSurface = 0.8317;  // inside a cell
-  constexpr double kWeight = 9800;     // rho g
+constexpr double kWeight = 9800;  // rho g
+
+/// Water at rest on a closed floor, its surface inside a cell.
+Liquid restingWater() {
+  constexpr double kSurface = 0.8317;
   Liquid liquid([&](const Eigen::Vector3d& x) { return x.y() - kSurface; },
                 [&](const Eigen::Vector3d&) { return Eigen::Vector3d(0, -kWeight, 0); });
   for (int axis = 0; axis < 3; ++axis) {  // the solver knows no pressure in the air, nor across closed faces
@@ -166,13 +168,20 @@ TEST(VdbLiquidSampler, PressureGradientIsContinuedAboveTheSurface) {
       if (wall || liquid.state.grid.faceCentre(axis, i, j, k).y() > kSurface + 0.1) field(i, j, k) = 0;
     });
   }
+  return liquid;
+}
+
+TEST(VdbLiquidSampler, PressureGradientIsContinuedAboveTheSurface) {
+  const Liquid liquid = restingWater();
   const VdbLiquidSampler sampler(liquid.state, liquid.solids);
-  const Eigen::Matrix3Xd x = liquid.points(500, 0.1);
-  Eigen::Matrix3Xd pressure(3, x.cols());
-  sampler.gradPressure(x, pressure);
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    EXPECT_LT((pressure.col(i) - Eigen::Vector3d(0, -kWeight, 0)).norm(), kFloatError * kWeight)
-        << x.col(i).transpose();
+  for (const int points : {500, 5000}) {  // the faces of the grid are looked at one by one, or all first
+    const Eigen::Matrix3Xd x = liquid.points(points, 0.1);
+    Eigen::Matrix3Xd pressure(3, x.cols());
+    sampler.gradPressure(x, pressure);
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      EXPECT_LT((pressure.col(i) - Eigen::Vector3d(0, -kWeight, 0)).norm(), kFloatError * kWeight)
+          << x.col(i).transpose();
+  }
 }
 
 TEST(VdbLiquidSampler, SolidsAnswerWithTheirIndexAndVelocity) {
@@ -194,14 +203,24 @@ TEST(VdbLiquidSampler, SolidsAnswerWithTheirIndexAndVelocity) {
 }
 
 TEST(VdbLiquidSampler, AnswerDoesNotDependOnTheBatch) {
-  const Liquid liquid = linearLiquid();
+  Liquid liquid = restingWater();
+  std::mt19937 random(5);
+  for (int axis = 0; axis < 3; ++axis) {  // no two faces alike, and closed ones anywhere
+    auto& field = liquid.state.pressureGradient[axis];
+    Liquid::eachPoint(field.size(), [&](int i, int j, int k) {
+      field(i, j, k) = static_cast<float>(random() % 1000);
+      liquid.solids.open[axis](i, j, k) = static_cast<float>(random() % 4 != 0);
+    });
+  }
   const VdbLiquidSampler sampler(liquid.state, liquid.solids);
   const Eigen::Matrix3Xd x = liquid.points(5000, 0.3);
   Eigen::VectorXd together(x.cols()), alone(1);
-  sampler.phi(x, together);
+  Eigen::Matrix3Xd pressure(3, x.cols()), pressureAlone(3, 1);
+  sampler.phi(x, together), sampler.gradPressure(x, pressure);
   for (Eigen::Index i = 0; i < x.cols(); i += 97) {
-    sampler.phi(x.col(i), alone);
+    sampler.phi(x.col(i), alone), sampler.gradPressure(x.col(i), pressureAlone);
     EXPECT_EQ(alone[0], together[i]);
+    EXPECT_EQ(pressureAlone.col(0), pressure.col(i));
   }
 }
 
