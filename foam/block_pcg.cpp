@@ -47,7 +47,7 @@ int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, co
   state_.resize(a.size()), image_.resize(a.size());
   known_.assign(2 * a.size() + 2, Vector4f::Zero());
   int iterations = 0;
-  Crew::lead(a.groups(), [&](Crew& crew) {
+  Crew::lead(a.tasks(), [&](Crew& crew) {
     iterations = iterate(crew, a, factor, coarse, b, norm, goal, maxIterations);
   });
   forEachIndex(a.size(), [&](std::size_t k) {

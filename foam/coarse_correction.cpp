@@ -12,17 +12,14 @@ namespace spume::foam {
 namespace {
 
 /// Columns of the inverse that one task finds.
-constexpr std::size_t kColumns = 48;
+constexpr Eigen::Index kColumns = 48;
 /// Of what would set clusters right if they moved alone: the factor has its own share of their motions, and
 /// both together would go too far (1 instead of 0.5: 56 instead of 52 iterations).
 constexpr double kShare = 0.5;
 
 /// Whether a row's neighbours hold it more stiffly than all else does.
-bool movesWithOthers(const BlockSystem& a, std::size_t i) {
-  double couplings = 0;
-  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e)
-    couplings += a.block[e].along.squaredNorm() + 3 * a.block[e].across;
-  return a.own[i].trace() < couplings;
+bool movesWithOthers(const BlockSystem& a, const SweptSystem& swept, std::size_t i) {
+  return 2 * a.own[i].trace() < swept.diagonal[swept.placeOf(i)].trace();
 }
 
 Eigen::Matrix3d matrixOf(const CouplingBlock& block) {
@@ -40,21 +37,25 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
   home_.resize(n);
   forEachIndex(n, [&](std::size_t i) {
     cluster_[i] = static_cast<std::int32_t>(i * clusters_ / n);
-    isFree_[i] = movesWithOthers(a, i);
+    isFree_[i] = movesWithOthers(a, swept, i);
   });
   forEachIndex(n, [&](std::size_t k) { start_[k] = countLinks(a, swept.source[k]); });
   std::int32_t links = 0;
   for (std::int32_t& start : start_) links += std::exchange(start, links);
   link_.resize(links), block_.resize(links);
-  forEachIndex(n, [&](std::size_t i) { fillRow(a, swept, i); });
-  invert(a);
+  matrix_.resize(3 * clusters_, 3 * clusters_);
+  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
+    for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i) fillRow(a, swept, i);
+    sumCluster(a, g);
+  });
+  invert();
 }
 
 void CoarseCorrection::refresh(const BlockSystem& a, const SweptSystem& swept,
                                const std::vector<std::int32_t>& rows) {
   if (clusters_ == 0) return;
   for (const std::int32_t i : rows) {
-    const bool isFree = movesWithOthers(a, i), was = std::exchange(isFree_[i], isFree);
+    const bool isFree = movesWithOthers(a, swept, i), was = std::exchange(isFree_[i], isFree);
     fillRow(a, swept, i);
     if (isFree == was) continue;
     for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) fillRow(a, swept, a.other[e]);
@@ -71,6 +72,7 @@ void CoarseCorrection::forEachLink(const BlockSystem& a, std::size_t i, const Us
   std::int32_t number = 1, running = home;
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
     const std::int32_t j = a.other[e], c = cluster_[j];
+    if (c == home && isFree_[i] == isFree_[j]) continue;
     const Eigen::Matrix3d block = matrixOf(a.block[e]);
     if (c == home) {
       own += (isFree_[i] - isFree_[j]) * block;
@@ -101,43 +103,46 @@ void CoarseCorrection::fillRow(const BlockSystem& a, const SweptSystem& swept, s
   });
 }
 
-/// A cluster in which nothing is free stands apart. Where round-off leaves no inverse, there is no
-/// correction.
-void CoarseCorrection::invert(const BlockSystem& a) {
-  const std::size_t size = 3 * clusters_, n = a.size();
-  matrix_.setZero(size, size);
-  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
-    for (std::size_t i = (g * n + clusters_ - 1) / clusters_; i * clusters_ < (g + 1) * n; ++i)
-      if (isFree_[i])
-        forEachLink(a, i, [&](std::int32_t, std::int32_t c, const Eigen::Matrix3d& block) {
-          matrix_.block<3, 3>(3 * c, 3 * g) += block;
-        });
-    if (matrix_.block<3, 3>(3 * g, 3 * g).isZero(0)) matrix_.block<3, 3>(3 * g, 3 * g).setIdentity();
-  });
+/// Its columns of Z^T A Z; those of a cluster in which nothing is free stand apart.
+void CoarseCorrection::sumCluster(const BlockSystem& a, std::size_t g) {
+  auto columns = matrix_.middleCols<3>(static_cast<Eigen::Index>(3 * g));
+  columns.setZero();
+  for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i)
+    if (isFree_[i])
+      forEachLink(a, i, [&](std::int32_t, std::int32_t c, const Eigen::Matrix3d& block) {
+        columns.middleRows<3>(3 * c) += block;
+      });
+  auto own = columns.middleRows<3>(static_cast<Eigen::Index>(3 * g));
+  if (own.isZero(0)) own.setIdentity();
+}
+
+/// Where round-off leaves no inverse, there is no correction. Only the lower half is found: from a column's
+/// diagonal down it depends on nothing above, which saves two thirds of the work.
+void CoarseCorrection::invert() {
+  const Eigen::Index size = matrix_.rows();
+  inverse_.setZero(size, size);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(matrix_);
-  if (cholesky.info() != Eigen::Success) {
-    inverse_.setZero(size, size);
-    return;
-  }
-  inverse_.setIdentity(size, size);
-  tbb::parallel_for(std::size_t{0}, (size + kColumns - 1) / kColumns, [&](std::size_t task) {
-    auto columns = inverse_.middleCols(kColumns * task, std::min(kColumns, size - kColumns * task));
-    cholesky.solveInPlace(columns);
-    columns *= kShare;
+  if (cholesky.info() != Eigen::Success) return;
+  tbb::parallel_for(Eigen::Index{0}, (size + kColumns - 1) / kColumns, [&](Eigen::Index task) {
+    const Eigen::Index first = kColumns * task, rest = size - first;
+    const auto factor = matrix_.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>();
+    auto columns = inverse_.block(first, first, rest, std::min(kColumns, rest));
+    columns.diagonal().setConstant(kShare);
+    factor.solveInPlace(columns);
+    factor.transpose().solveInPlace(columns);
   });
 }
 
 void CoarseCorrection::sumUp(const Vectors3& b, Eigen::VectorXd& sums) const {
-  const std::size_t n = b.size();
   sums.setZero(3 * clusters_);
   tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
-    for (std::size_t i = (g * n + clusters_ - 1) / clusters_; i * clusters_ < (g + 1) * n; ++i)
+    for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i)
       if (isFree_[i]) sums.segment<3>(3 * g) += b[i];
   });
 }
 
 void CoarseCorrection::solve(const Eigen::VectorXd& sums, Eigen::VectorXd& motion) const {
-  motion.noalias() = inverse_ * sums;
+  motion.noalias() = inverse_.selfadjointView<Eigen::Lower>() * sums;
 }
 
 }  // namespace spume::foam

@@ -56,7 +56,10 @@ class CoarseCorrection {
   void forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const;
   std::int32_t countLinks(const BlockSystem& a, std::size_t i) const;
   void fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i);
-  void invert(const BlockSystem& a);
+  void sumCluster(const BlockSystem& a, std::size_t g);
+  void invert();
+  /// The rows of cluster g of the BlockSystem are firstRow(g) .. firstRow(g + 1) - 1.
+  std::size_t firstRow(std::size_t g) const { return (g * cluster_.size() + clusters_ - 1) / clusters_; }
 
   std::size_t clusters_ = 0;
   std::vector<std::int32_t> cluster_;  ///< by row of the BlockSystem
@@ -65,7 +68,7 @@ class CoarseCorrection {
   std::vector<std::int32_t> start_, link_;
   std::vector<SymmetricBlock> block_;
   std::vector<std::int32_t> home_;    ///< clusterOf() by rows as swept
-  Eigen::MatrixXd matrix_, inverse_;  ///< Z^T A Z and kShare of its inverse
+  Eigen::MatrixXd matrix_, inverse_;  ///< factor of Z^T A Z, kShare of its inverse; lower halves
 };
 
 }  // namespace spume::foam

@@ -90,7 +90,7 @@ int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal,
   if (!std::exchange(isLaidOut_, true)) {
     const bool factors = solver_ == LinearSolver::pcgIncompleteCholesky;
     swept_.copy(a, factors);
-    Crew::lead(swept_.groups(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
+    Crew::lead(swept_.tasks(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
     coarse_.build(a, swept_, factors);
   }
   int iterations = 0;

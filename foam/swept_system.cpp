@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "foam/parallel.h"
 
@@ -9,7 +10,7 @@ namespace spume::foam {
 
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
-  orderRows(cutBlocks(a));
+  cutBlocks(a, sweeps), orderRows();
   row.resize(n + 1), diagonal.resize(n);
   forEachIndex(n, [&](std::size_t k) { row[k] = countRow(a, k, sweeps); });
   std::int32_t inAhead = 0, inKnown = 0;
@@ -23,42 +24,66 @@ void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   forEachIndex(n, [&](std::size_t k) { copyRow(a, k, sweeps), sumDiagonal(a, k); });
 }
 
-/// Cuts the rows into blocks of equal work: a bubble among others costs several times one that is alone.
-/// Returns where each block begins, kAbreast of them for each group; the last may be empty.
-std::vector<std::size_t> SweptSystem::cutBlocks(const BlockSystem& a) {
-  constexpr std::size_t kOwnWork = 6;  // of a row without couplings, in couplings
+/// As many blocks for each group of inner rows and of border rows, kAbreast; the last of them may be empty.
+void SweptSystem::cutBlocks(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
   std::size_t groups = std::max(kLeastGroups, (n + kAbreast * kBlockRows - 1) / (kAbreast * kBlockRows));
   groups = std::bit_ceil(groups);  // of which 2, 4, 8 threads get as many each
-  groups = std::max<std::size_t>(1, std::min(groups, n / (kAbreast * kLeastRows)));
-  const std::size_t blocks = std::min(kAbreast * groups, std::max<std::size_t>(1, n / kLeastRows));
-  const std::size_t all = kOwnWork * n + a.other.size();
-  std::vector<std::size_t> start(kAbreast * groups + 1, n);
-  blockOf_.resize(n);
-  std::size_t work = 0, block = 0;
-  start[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (work * blocks >= (block + 1) * all && block + 1 < blocks) start[++block] = i;
-    blockOf_[i] = static_cast<std::uint32_t>(block);
-    work += kOwnWork + static_cast<std::size_t>(a.start[i + 1] - a.start[i]);
+  tasks_ = std::max<std::size_t>(1, std::min(groups, n / (kAbreast * kLeastRows)));
+  const std::size_t most = kAbreast * tasks_,
+                    blocks = std::min(most, std::max<std::size_t>(1, n / kLeastRows));
+  const bool hasBorders = sweeps && blocks > 1;
+  blocks_.resize(hasBorders ? 2 * most : most);
+  for (auto& block : blocks_) block.clear();
+  blockOf_.resize(n), isBorder_.assign(n, 0), rows_.resize(n);
+  std::iota(rows_.begin(), rows_.end(), 0);
+  cut(a, rows_, 0, blocks);
+  if (hasBorders) {
+    findBorders(a);
+    cut(a, rows_, most, blocks);
   }
-  return start;
+  for (std::size_t i = 0; i < n; ++i) blocks_[blockOf_[i]].push_back(static_cast<std::int32_t>(i));
+}
+
+/// Into rows_: those with a neighbour in a later block, without which no two blocks touch.
+void SweptSystem::findBorders(const BlockSystem& a) {
+  forEachIndex(a.size(), [&](std::size_t i) {
+    const auto isLater = [&](std::int32_t j) { return blockOf_[j] > blockOf_[i]; };
+    isBorder_[i] = std::any_of(a.other.begin() + a.start[i], a.other.begin() + a.start[i + 1], isLater);
+  });
+  rows_.clear();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (isBorder_[i]) rows_.push_back(static_cast<std::int32_t>(i));
+}
+
+/// Cuts `rows` into blocks of equal work, numbered from `first`: a bubble among others costs several times
+/// one that is alone.
+void SweptSystem::cut(const BlockSystem& a, const std::vector<std::int32_t>& rows, std::size_t first,
+                      std::size_t blocks) {
+  constexpr std::size_t kOwnWork = 6;  // of a row without couplings, in couplings
+  const auto workOf = [&](std::int32_t i) {
+    return kOwnWork + static_cast<std::size_t>(a.start[i + 1] - a.start[i]);
+  };
+  std::size_t all = 0, work = 0, block = 0;
+  for (const std::int32_t i : rows) all += workOf(i);
+  for (const std::int32_t i : rows) {
+    if (work * blocks >= (block + 1) * all && block + 1 < blocks) ++block;
+    blockOf_[i] = static_cast<std::uint32_t>(first + block);
+    work += workOf(i);
+  }
 }
 
 /// Goes through the blocks of each group at speeds at which all end together.
-void SweptSystem::orderRows(const std::vector<std::size_t>& start) {
-  source.clear(), source.reserve(start.back());
+void SweptSystem::orderRows() {
+  source.clear(), source.reserve(blockOf_.size());
   groupStart_ = {0};
-  for (std::size_t first = 0; first + 1 < start.size(); first += kAbreast) {
-    std::size_t longest = 0, next[kAbreast];
-    for (std::size_t b = 0; b < kAbreast; ++b) {
-      next[b] = start[first + b];
-      longest = std::max(longest, start[first + b + 1] - next[b]);
-    }
+  for (std::size_t first = 0; first < blocks_.size(); first += kAbreast) {
+    std::size_t longest = 0, next[kAbreast] = {};
+    for (std::size_t b = 0; b < kAbreast; ++b) longest = std::max(longest, blocks_[first + b].size());
     for (std::size_t k = 1; k <= longest; ++k)
       for (std::size_t b = 0; b < kAbreast; ++b) {
-        const std::size_t begin = start[first + b], rows = start[first + b + 1] - begin;
-        if ((next[b] - begin) * longest < k * rows) source.push_back(static_cast<std::int32_t>(next[b]++));
+        const std::vector<std::int32_t>& rows = blocks_[first + b];
+        if (next[b] * longest < k * rows.size()) source.push_back(rows[next[b]++]);
       }
     groupStart_.push_back(source.size());
   }
@@ -68,8 +93,10 @@ void SweptSystem::orderRows(const std::vector<std::size_t>& start) {
 
 /// Of a coupling between two rows of the BlockSystem.
 SweptSystem::Kind SweptSystem::kindOf(std::int32_t source, std::int32_t other, bool sweeps) const {
-  if (!sweeps || blockOf_[other] != blockOf_[source]) return Kind::beyond;
-  return other > source ? Kind::ahead : Kind::behind;
+  if (!sweeps) return Kind::beyond;
+  if (blockOf_[other] == blockOf_[source]) return other > source ? Kind::ahead : Kind::behind;
+  if (isBorder_[other] == isBorder_[source]) return Kind::beyond;
+  return isBorder_[other] ? Kind::ahead : Kind::behind;
 }
 
 /// How many couplings of each kind a row has.

@@ -13,10 +13,15 @@
 
 namespace spume::foam {
 
-/// A BlockSystem laid out for sweeps of conjugate gradients: rows cut into blocks of consecutive rows, each
-/// row with two runs of couplings, those with later rows of its block and all others. Couplings are
-/// kept in single precision: the matrix differs by 1e-7 of each spring, which one refinement against the
-/// BlockSystem undoes, and a sweep moves half the memory.
+/// A BlockSystem laid out for sweeps of conjugate gradients: rows cut into blocks, each row with two runs of
+/// couplings, those with rows swept later and all others. Couplings are kept in single precision: the matrix
+/// differs by 1e-7 of each spring, which one refinement against the BlockSystem undoes, and a sweep moves
+/// half the memory.
+///
+/// Blocks are consecutive rows, and what couples two of them an incomplete factor would not know. So the rows
+/// at their borders, a tenth of all, are taken out and swept in a round of their own when the inner rows of
+/// every block are done, as the separators of nested dissection [George 1973]. Only couplings between blocks
+/// of border rows are lost to the factor: 0.4 instead of 10 of 100.
 ///
 /// Blocks are swept side by side, kAbreast of them at a time: a row waits for the one before it, and others
 /// fill the wait. Rows are numbered anew in the order in which they are swept, so that whatever a sweep reads
@@ -54,20 +59,23 @@ struct SweptSystem {
   /// Where a row's couplings begin, by kind; each kind ends where the next row's begins.
   struct Row {
     std::int32_t ahead;   ///< in `ahead`
-    std::int32_t behind;  ///< in `known`: first those with earlier rows of the block
-    std::int32_t beyond;  ///< in `known`: then those with other blocks
+    std::int32_t behind;  ///< in `known`: first those with rows swept earlier
+    std::int32_t beyond;  ///< in `known`: then those with rows that are swept at the same time
   };
 
   std::vector<Row> row;  ///< n + 1
-  Couplings ahead;       ///< with later rows of the block: swept back
+  Couplings ahead;       ///< with rows swept later: swept back
   /// With all others: swept forth. `other` is the place of the other row's number in a list of 2 n + 2: its
-  /// own where it is in another block, n + 1 more where it is behind in this one.
+  /// own where it is beyond, n + 1 more where it is behind.
   Couplings known;
   std::vector<Eigen::Matrix3d> diagonal;  ///< own block and all couplings [kg]
   std::vector<std::int32_t> source;       ///< each row's number in the BlockSystem
 
   std::size_t size() const { return source.size(); }
+  /// All groups: those of inner rows, then as many of border rows or none.
   std::size_t groups() const { return groupStart_.size() - 1; }
+  /// Groups of a round, which are the tasks of a crew.
+  std::size_t tasks() const { return tasks_; }
   /// Where row i of the BlockSystem stands here.
   std::int32_t placeOf(std::size_t i) const { return place_[i]; }
   /// The rows of group g are groupStart()[g] .. groupStart()[g + 1] - 1.
@@ -80,36 +88,53 @@ struct SweptSystem {
 
  private:
   enum class Kind : std::uint8_t { ahead, behind, beyond };
-  std::vector<std::size_t> cutBlocks(const BlockSystem& a);
-  void orderRows(const std::vector<std::size_t>& blockStart);
+  void cutBlocks(const BlockSystem& a, bool sweeps);
+  void findBorders(const BlockSystem& a);
+  void cut(const BlockSystem& a, const std::vector<std::int32_t>& rows, std::size_t first,
+           std::size_t blocks);
+  void orderRows();
   Kind kindOf(std::int32_t source, std::int32_t other, bool sweeps) const;
   Row countRow(const BlockSystem& a, std::size_t k, bool sweeps) const;
   void copyRow(const BlockSystem& a, std::size_t k, bool sweeps);
   void sumDiagonal(const BlockSystem& a, std::size_t k);
 
+  std::size_t tasks_ = 1;
   std::vector<std::size_t> groupStart_ = {0};
-  std::vector<std::int32_t> place_;      ///< row of each of the BlockSystem's
-  std::vector<std::uint32_t> blockOf_;   ///< block of each of the BlockSystem's rows
-  std::vector<std::int32_t> refreshed_;  ///< rows of the last refresh()
+  std::vector<std::vector<std::int32_t>> blocks_;  ///< rows of the BlockSystem by block, kAbreast a group
+  std::vector<std::int32_t> place_;                ///< row of each of the BlockSystem's
+  std::vector<std::int32_t> rows_;                 ///< to be cut
+  std::vector<std::uint8_t> isBorder_;             ///< by rows of the BlockSystem
+  std::vector<std::uint32_t> blockOf_;             ///< block of each of the BlockSystem's rows
+  std::vector<std::int32_t> refreshed_;            ///< rows of the last refresh()
 };
 
-/// Calls body(group, row) for the rows of each group, and so of each block, in order. Groups are the crew's
+/// Calls body(group) for all groups, those of inner rows first.
+template <typename Body>
+void forEachGroupForth(Crew& crew, const SweptSystem& a, const Body& body) {
+  for (std::size_t first = 0; first < a.groups(); first += a.tasks())
+    crew.forEachTask([&](std::size_t task) {
+      const FlushTiny flush;
+      body(first + task);
+    });
+}
+
+/// The same, those of border rows first.
+template <typename Body>
+void forEachGroupBack(Crew& crew, const SweptSystem& a, const Body& body) {
+  for (std::size_t end = a.groups(); end > 0; end -= a.tasks())
+    crew.forEachTask([&](std::size_t task) {
+      const FlushTiny flush;
+      body(end - a.tasks() + task);
+    });
+}
+
+/// Calls body(group, row) for the rows of each group, and so of each block, in order. The crew has a.tasks()
 /// tasks.
 template <typename Body>
 void sweepForth(Crew& crew, const SweptSystem& a, const Body& body) {
-  crew.forEachTask([&](std::size_t group) {
-    const FlushTiny flush;
+  forEachGroupForth(crew, a, [&](std::size_t group) {
     const std::size_t last = a.groupStart()[group + 1];
     for (std::size_t k = a.groupStart()[group]; k < last; ++k) body(group, k);
-  });
-}
-
-/// The same from last to first.
-template <typename Body>
-void sweepBack(Crew& crew, const SweptSystem& a, const Body& body) {
-  crew.forEachTask([&](std::size_t group) {
-    const FlushTiny flush;
-    for (std::size_t k = a.groupStart()[group + 1]; k > a.groupStart()[group]; --k) body(group, k - 1);
   });
 }
 
@@ -128,8 +153,7 @@ struct alignas(64) GroupSums {
 template <int kCount, typename Body>
 void sumForth(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, const Body& body) {
   sums.resize(a.groups());
-  crew.forEachTask([&](std::size_t group) {
-    const FlushTiny flush;
+  forEachGroupForth(crew, a, [&](std::size_t group) {
     const std::size_t end = a.groupStart()[group + 1];
     DoubleQuad of[kCount] = {};
     for (std::size_t k = a.groupStart()[group]; k < end; ++k) body(group, k, of);
@@ -141,8 +165,7 @@ void sumForth(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, co
 template <int kCount, typename Body>
 void sumBack(Crew& crew, const SweptSystem& a, std::vector<GroupSums>& sums, const Body& body) {
   sums.resize(a.groups());
-  crew.forEachTask([&](std::size_t group) {
-    const FlushTiny flush;
+  forEachGroupBack(crew, a, [&](std::size_t group) {
     const std::size_t begin = a.groupStart()[group];
     DoubleQuad of[kCount] = {};
     for (std::size_t k = a.groupStart()[group + 1]; k > begin; --k) body(k - 1, of);

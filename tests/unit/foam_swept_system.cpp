@@ -60,19 +60,25 @@ TEST_P(SweptSystemOf, SweepsMeetWhatTheyMayKnow) {
     const auto& start = swept.groupStart();
     return std::upper_bound(start.begin(), start.end(), static_cast<std::size_t>(row)) - start.begin();
   };
+  const auto isBorder = [&](std::int32_t row) {
+    return groupOf(row) > static_cast<std::ptrdiff_t>(swept.tasks());
+  };
+  const auto mayFollow = [&](std::int32_t row, std::int32_t later) {
+    return later > row && (groupOf(later) == groupOf(row) || (isBorder(later) && !isBorder(row)));
+  };
   std::map<std::pair<std::int32_t, std::int32_t>, int> met;
   int behind = 0;
   for (std::int32_t k = 0; k < n; ++k) {
     const SweptSystem::Row &row = swept.row[k], &next = swept.row[k + 1];
     for (std::int32_t e = row.ahead; e < next.ahead; ++e) {
       const std::int32_t other = swept.ahead.other[e];
-      EXPECT_TRUE(other > k && groupOf(other) == groupOf(k)) << "row " << k;
+      EXPECT_TRUE(mayFollow(k, other)) << "row " << k;
       ++met[{k, other}];
     }
     for (std::int32_t e = row.behind; e < next.behind; ++e) {
       const bool isBehind = e < row.beyond;
       const std::int32_t other = swept.known.other[e] - (isBehind ? n + 1 : 0);
-      EXPECT_TRUE(!isBehind || (other < k && groupOf(other) == groupOf(k))) << "row " << k;
+      EXPECT_TRUE(isBehind ? mayFollow(other, k) : isBorder(k) && isBorder(other)) << "row " << k;
       behind += isBehind;
       ++met[{k, other}];
     }
@@ -85,7 +91,7 @@ TEST_P(SweptSystemOf, SweepsMeetWhatTheyMayKnow) {
       missing += met[{place[i], place[system.other[e]]}] != 1;
   EXPECT_EQ(missing, 0u);
   EXPECT_EQ(met.size(), system.other.size());
-  EXPECT_GE(behind, static_cast<int>(0.4 * static_cast<double>(system.other.size())));  // few are cut
+  EXPECT_GE(behind, static_cast<int>(0.49 * static_cast<double>(system.other.size())));  // few are cut
 }
 
 TEST_P(SweptSystemOf, BlocksOfAGroupEndTogether) {
@@ -94,7 +100,7 @@ TEST_P(SweptSystemOf, BlocksOfAGroupEndTogether) {
   for (std::size_t group = 0; group < swept.groups(); ++group) {
     const auto begin = swept.source.begin() + static_cast<std::ptrdiff_t>(swept.groupStart()[group]);
     const auto end = swept.source.begin() + static_cast<std::ptrdiff_t>(swept.groupStart()[group + 1]);
-    if (std::is_sorted(begin, end)) continue;  // one block alone
+    if (end - begin <= kTail || std::is_sorted(begin, end)) continue;  // one block alone
     EXPECT_FALSE(std::is_sorted(end - kTail, end)) << "one block is left over, group " << group;
   }
 }
@@ -110,7 +116,7 @@ TEST_P(SweptSystemOf, SumsOfSweepsAreThoseOfTheirRows) {
     addTo(of[0], Quad{one, 0, 0, 9}), addTo(of[1], Quad{0, one, one, 9});
   };
   std::vector<GroupSums> forth, back;
-  Crew::lead(swept.groups(), [&](Crew& crew) {
+  Crew::lead(swept.tasks(), [&](Crew& crew) {
     const auto addForth = [&](std::size_t, std::size_t k, DoubleQuad* of) { add(k, of); };
     sumForth<2>(crew, swept, forth, addForth), sumBack<2>(crew, swept, back, add);
   });
