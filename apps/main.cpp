@@ -65,6 +65,7 @@ int parseAndPerform(int argc, char** argv) {
       "4 input/output, 75 stopped by --max-wall, 130/143 interrupted after writing a checkpoint.");
   Action action;
   addRun(program, action);
+  addFoam(program, action);
   addCheck(program, action);
   addInfo(program, action);
   addRender(program, action);

@@ -161,6 +161,15 @@ KeyTable stillPoolTable() {
       .build();
 }
 
+KeyTable liquidCacheTable() {
+  return partTable("liquid_cache", "A liquid that was computed before: only the foam is.",
+                   &Scene::liquidCache)
+      .key("run", &LiquidCacheSpec::run,
+           "folder of the run whose caches hold it, beside the scene; \"\": it is solved (`spume foam` sets "
+           "it)")
+      .build();
+}
+
 KeyTable dissolvedGasTable() {
   using foam::DissolvedGasParams;
   return partTable("dissolved_gas", "Gas in solution, from which bubbles under the surface grow.",

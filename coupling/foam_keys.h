@@ -7,6 +7,7 @@ namespace spume::coupling {
 // The tables of a scene file that are about bubbles.
 
 KeyTable stillPoolTable();
+KeyTable liquidCacheTable();
 KeyTable foamTable();
 KeyTable wallTable();
 KeyTable dissolvedGasTable();

@@ -54,6 +54,11 @@ std::optional<Conflict> findFoamConflict(const Scene& scene) {
     return Conflict{
         "still_pool.enabled",
         "= true, but a [[solid]] moves, and a pool at rest does not give way: remove one of them"};
+  if (scene.stillPool.enabled && !scene.liquidCache.run.empty())
+    return Conflict{
+        "liquid_cache.run",
+        "= " + quoted(scene.liquidCache.run) +
+            ", but still_pool.enabled = true: the liquid is either read or at rest: remove one of them"};
   for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i) {
     const std::string table = "bubble_source." + std::to_string(i) + ".";
     if (auto conflict = radiusConflict(table, scene.bubbleSources[i].radius)) return conflict;

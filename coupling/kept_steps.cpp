@@ -39,6 +39,7 @@ const std::map<std::string_view, Setter>& settersOfColumns() {
       {"target_volume", into([](R & r) -> auto& { return r.liquid.targetVolume; })},
       {"poured", into([](R & r) -> auto& { return r.poured; })},
       {"drained", into([](R & r) -> auto& { return r.drained; })},
+      {"immersed_gas", into([](R & r) -> auto& { return r.immersedGas; })},
       {"drops", into([](R & r) -> auto& { return r.liquid.drops; })},
       {"drop_volume", into([](R & r) -> auto& { return r.liquid.dropVolume; })},
       {"bubbles", into([](R & r) -> auto& { return r.foam.bubbles; })},

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "coupling/cached_liquid.h"
 #include "coupling/scene_builder.h"
 #include "coupling/still_liquid.h"
 #include "coupling/vdb_liquid_sampler.h"
@@ -42,12 +43,14 @@ class MovingLiquid : public LiquidPart {
 
 std::unique_ptr<LiquidPart> makeLiquid(const Scene& scene) {
   if (scene.stillPool.enabled) return std::make_unique<StillLiquid>(scene);
+  if (!scene.liquidCache.run.empty()) return std::make_unique<CachedLiquid>(scene);
   return std::make_unique<MovingLiquid>(
       scene, fluid::LiquidSolver(scene.liquid, buildLiquidSetup(scene), initialPhi(scene)));
 }
 
 std::unique_ptr<LiquidPart> makeLiquid(const Scene& scene, fluid::LiquidState state) {
   if (scene.stillPool.enabled) return std::make_unique<StillLiquid>(scene, state.time);
+  if (!scene.liquidCache.run.empty()) return std::make_unique<CachedLiquid>(scene, state.time);
   return std::make_unique<MovingLiquid>(
       scene, fluid::LiquidSolver(scene.liquid, buildLiquidSetup(scene), std::move(state)));
 }

@@ -3,13 +3,15 @@
 #include <memory>
 #include <vector>
 
+#include "coupling/entrainment.h"
 #include "coupling/scene.h"
 #include "fluid/liquid_solver.h"
 #include "foam/liquid_sampler.h"
 
 namespace spume::coupling {
 
-/// The liquid of a simulation as the shared step sees it: solved on a grid, or at rest in closed form.
+/// The liquid of a simulation as the shared step sees it: solved on a grid, at rest in closed form,
+/// or read from an earlier run.
 class LiquidPart {
  public:
   virtual ~LiquidPart() = default;
@@ -30,12 +32,15 @@ class LiquidPart {
   /// Markers and pockets that left since the last call.
   virtual std::vector<fluid::EscapedMarker> takeEscaped() = 0;
   virtual std::vector<fluid::CollapsedPocket> takeCollapsedPockets() = 0;
+  /// Bubbles that a liquid of the past bore in the last step; one that moves now leaves them to entrainment.
+  virtual std::vector<Birth> recordedBirths() const { return {}; }
   /// What the foam asks, of the state as it is now; to be used before the next step.
   virtual std::unique_ptr<foam::LiquidSampler> sampler() const = 0;
 };
 
-/// The liquid of a scene at its start: a StillLiquid where [still_pool] says so, else a fluid::LiquidSolver.
-/// Throws SceneError or fluid::InvalidParameter.
+/// The liquid of a scene at its start: a StillLiquid where [still_pool] says so, a CachedLiquid where
+/// [liquid_cache] names a run, else a fluid::LiquidSolver. Throws SceneError, FileError or
+/// fluid::InvalidParameter.
 std::unique_ptr<LiquidPart> makeLiquid(const Scene& scene);
 /// The same from a checkpoint.
 std::unique_ptr<LiquidPart> makeLiquid(const Scene& scene, fluid::LiquidState state);

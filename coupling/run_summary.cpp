@@ -159,6 +159,7 @@ std::vector<std::string> switchedOff(const Scene& scene) {
       {scene.liquid.volumeControl, "volume control: the level set may lose or gain liquid"},
       {scene.foam.bursting, "bursting: bubbles live for ever"},
       {!scene.stillPool.enabled, "liquid motion: a pool at rest in closed form"},
+      {scene.liquidCache.run.empty(), "liquid solver: the liquid is an earlier run's"},
       {scene.foam.attractionLaw != foam::AttractionLaw::none,
        "attraction: floating bubbles drift as they are"},
       {scene.dissolvedGas.enabled, "dissolved gas: bubbles do not grow"},

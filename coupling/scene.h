@@ -101,6 +101,11 @@ struct StillPoolSpec {
   double level = 0;  ///< height of the surface against gravity, along y without it [m]
 };
 
+/// The liquid of an earlier run, from its caches, instead of one that is solved.
+struct LiquidCacheSpec {
+  std::string run;  ///< folder of that run; empty: the liquid is solved
+};
+
 /// Bubbles the scene starts with: one, or those of a file.
 struct BubblesSpec {
   std::string file;  ///< .csv, .ply or .vdb; where it is given the bubble does not count
@@ -223,6 +228,7 @@ struct Scene {
   foam::Preset preset = foam::Preset::physical;
   foam::FoamParams foam;
   StillPoolSpec stillPool;
+  LiquidCacheSpec liquidCache;
   foam::DissolvedGasParams dissolvedGas;
   CouplingSpec coupling;
   OutputSpec output;
@@ -241,6 +247,8 @@ struct Scene {
       makeSolidFileStore();  ///< what was read of them; copies share it
 
   double dx() const { return domain.size.maxCoeff() / domain.resolution; }
+  /// Whether the liquid is computed: not where it rests or is an earlier run's.
+  bool solvesLiquid() const { return !stillPool.enabled && liquidCache.run.empty(); }
 };
 
 }  // namespace spume::coupling

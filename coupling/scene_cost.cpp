@@ -56,7 +56,7 @@ CostEstimate estimateCost(const Scene& scene) {
   const double subSteps = std::max<double>(cost.stepsPerFrame, std::ceil(frame / subStep));
   const double bubbles = static_cast<double>(scene.bubbles.size()) + suppliedBubbles(scene, end) +
                          (scene.coupling.entrainment.enabled && !scene.inflows.empty() ? kPouredBubbles : 0);
-  const double liquidSteps = scene.stillPool.enabled ? 0 : subSteps;
+  const double liquidSteps = scene.solvesLiquid() ? subSteps : 0;
   cost.secondsPerFrame = liquidSteps * kSecondsPerCell * static_cast<double>(cost.cells) +
                          cost.stepsPerFrame * kSecondsPerBubble * bubbles;
   const double surfaceCells = kSurfaceCellsFactor * grid.cells.x() * grid.cells.z();

@@ -243,11 +243,11 @@ KeyTable bubbleKillTable() {
 
 const std::vector<KeyTable>& sceneTables() {
   static const std::vector<KeyTable> kTables{
-      sceneTable(),        domainTable(),    timeTable(),     liquidTable(),      stillPoolTable(),
-      foamTable(),         wallTable(),      couplingTable(), entrainmentTable(), dissolvedGasTable(),
-      outputTable(),       cameraTable(),    lookTable(),     solidTable(),       liquidBodyTable(),
-      inflowTable(),       outflowTable(),   probeTable(),    bubblesTable(),     nucleationTable(),
-      bubbleSourceTable(), bubbleKillTable()};
+      sceneTable(),        domainTable(),       timeTable(),      liquidTable(),   stillPoolTable(),
+      liquidCacheTable(),  foamTable(),         wallTable(),      couplingTable(), entrainmentTable(),
+      dissolvedGasTable(), outputTable(),       cameraTable(),    lookTable(),     solidTable(),
+      liquidBodyTable(),   inflowTable(),       outflowTable(),   probeTable(),    bubblesTable(),
+      nucleationTable(),   bubbleSourceTable(), bubbleKillTable()};
   return kTables;
 }
 

@@ -161,6 +161,7 @@ class Linter {
 
   void lintLiquid() {
     if (scene_.stillPool.enabled) return lintPool();
+    if (!scene_.liquidCache.run.empty()) return lintCache();
     const double share = initialWetShare(scene_);
     if (scene_.liquidBodies.empty() && scene_.inflows.empty())
       findings_.warn("scene", "has no liquid: neither [[liquid_body]] nor [[inflow]]");
@@ -175,6 +176,12 @@ class Linter {
                      " m^3 of air: ", closed ? "the closed domain will be over-full" : "it will run over");
     if (closed && !scene_.inflows.empty())
       findings_.warn("domain.walls", "are all closed while liquid is poured in: the air cannot leave");
+  }
+
+  void lintCache() {
+    if (scene_.coupling.twoWay)
+      findings_.note("coupling.two_way", "true does nothing: the cached liquid of ", scene_.liquidCache.run,
+                     " moves as it did");
   }
 
   void lintPool() {

@@ -152,6 +152,7 @@ void findFiles(Scene& scene, const std::string& scenePath) {
   };
   for (SolidSpec& solid : scene.solids) place(solid.shape.file);
   for (BubblesSpec& bubbles : scene.bubbles) place(bubbles.file);
+  place(scene.liquidCache.run);
 }
 
 void checkTogether(const Scene& scene, const SceneDocument& document, const std::string& path) {

@@ -88,6 +88,7 @@ struct Simulation::Internals {
 
   StepReport attempt(double dt);
   void stepLiquid(double dt, StepReport& report);
+  void bear(const Birth& birth, StepReport& report);
   void entrain(StepReport& report);
   void reportFirstBubbles(StepReport& report) const;
   void supplyBubbles(double dt, StepReport& report);
@@ -125,15 +126,21 @@ void Simulation::Internals::stepLiquid(double dt, StepReport& report) {
   report.secondsLiquid = watch.seconds();
 }
 
+void Simulation::Internals::bear(const Birth& birth, StepReport& report) {
+  bubbles.add(birth.bubble);
+  const EventCause cause = birth.cause == BirthCause::marker ? EventCause::marker : EventCause::pocket;
+  report.events.push_back(eventOf(Event::Kind::birth, cause, report.time, bubbles, bubbles.size() - 1));
+}
+
 void Simulation::Internals::entrain(StepReport& report) {
   const Stopwatch watch;
   const auto escaped = liquid->takeEscaped();
   const auto pockets = liquid->takeCollapsedPockets();
   if (scene.coupling.entrainment.enabled) {
-    for (const Birth& birth : entrainment.step(escaped, pockets, reservoirs, gas)) {
-      bubbles.add(birth.bubble);
-      const EventCause cause = birth.cause == BirthCause::marker ? EventCause::marker : EventCause::pocket;
-      report.events.push_back(eventOf(Event::Kind::birth, cause, report.time, bubbles, bubbles.size() - 1));
+    for (const Birth& birth : entrainment.step(escaped, pockets, reservoirs, gas)) bear(birth, report);
+    for (const Birth& birth : liquid->recordedBirths()) {
+      bear(birth, report);
+      (birth.cause == BirthCause::marker ? gas.bornMarkers : gas.bornPockets) += bubbles.gas.back();
     }
   }
   report.secondsEntrainment = watch.seconds();

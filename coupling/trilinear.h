@@ -72,4 +72,23 @@ inline void trilinearWeights(const TrilinearCell& cell, double (&weight)[8]) {
   }
 }
 
+/// Where the samples of a grid begin, in cells from its low corner: at the first cell's centre, or on its
+/// minus face across `axis`.
+inline Eigen::Vector3d firstCentre() { return Eigen::Vector3d::Constant(0.5); }
+inline Eigen::Vector3d firstFace(int axis) { return firstCentre() - 0.5 * Eigen::Vector3d::Unit(axis); }
+
+/// `field`, the first sample of which sits at `first`, at `inCells`; both from the grid's low corner.
+inline double interpolateAt(const fluid::DenseField<float>& field, const Eigen::Vector3d& first,
+                            const Eigen::Vector3d& inCells) {
+  const TrilinearCell cell = locate(field.size(), first, inCells);
+  return TrilinearSamples(field, cell).interpolate(cell);
+}
+
+/// Velocity [m/s] at `inCells` from the grid's low corner, each component from its own faces.
+inline Eigen::Vector3d faceVelocityAt(const fluid::MacVelocity& velocity, const Eigen::Vector3d& inCells) {
+  Eigen::Vector3d value;
+  for (int axis = 0; axis < 3; ++axis) value[axis] = interpolateAt(velocity[axis], firstFace(axis), inCells);
+  return value;
+}
+
 }  // namespace spume::coupling

@@ -19,10 +19,6 @@ constexpr Eigen::Index kManyPoints =
     4096;  // from which on looking at all faces of the grid first costs less than at those round each point
 constexpr double kLeastSlope = 1e-3;  // |grad phi| below which there is no way to the surface
 
-const Eigen::Vector3d kCellCentre = Eigen::Vector3d::Constant(0.5);
-
-Eigen::Vector3d firstFace(int axis) { return kCellCentre - 0.5 * Eigen::Vector3d::Unit(axis); }
-
 template <typename Body>
 void forEachPoint(Eigen::Index points, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, points, kBatch), [&](const auto& range) {
@@ -52,38 +48,31 @@ struct VdbLiquidSampler::Source {
 
   double phiAt(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d inside = insideGrid(x);
-    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside));
+    const TrilinearCell cell = locate(grid.cells, firstCentre(), grid.toCells(inside));
     const TrilinearSamples samples(*phi, cell);
     const double value = samples.interpolate(cell);
     return inside == x ? value : value + samples.gradient(cell).dot(x - inside) / grid.dx;
   }
 
   Eigen::Vector3d gradPhiAt(const Eigen::Vector3d& x) const {
-    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(insideGrid(x)));
+    const TrilinearCell cell = locate(grid.cells, firstCentre(), grid.toCells(insideGrid(x)));
     return TrilinearSamples(*phi, cell).gradient(cell) / grid.dx;
   }
 
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d inCells = grid.toCells(insideGrid(x));
-    Eigen::Vector3d value;
-    for (int axis = 0; axis < 3; ++axis) {
-      const fluid::DenseField<float>& field = (*velocity)[axis];
-      const TrilinearCell cell = locate(field.size(), firstFace(axis), inCells);
-      value[axis] = TrilinearSamples(field, cell).interpolate(cell);
-    }
-    return value;
+    return faceVelocityAt(*velocity, grid.toCells(insideGrid(x)));
   }
 
   /// In an edge of the domain psi does not rise square to either wall; only the ghosts know where these are.
   double psiAt(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d inside = insideGrid(x);
-    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside), solids != nullptr);
+    const TrilinearCell cell = locate(grid.cells, firstCentre(), grid.toCells(inside), solids != nullptr);
     return TrilinearSamples(*psi, cell).interpolate(cell) - (x - inside).norm();
   }
 
   Eigen::Vector3d gradPsiAt(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d inside = insideGrid(x), beyond = x - inside;
-    const TrilinearCell cell = locate(grid.cells, kCellCentre, grid.toCells(inside), solids != nullptr);
+    const TrilinearCell cell = locate(grid.cells, firstCentre(), grid.toCells(inside), solids != nullptr);
     Eigen::Vector3d gradient = TrilinearSamples(*psi, cell).gradient(cell) / grid.dx;
     for (int axis = 0; axis < 3; ++axis)
       if (beyond[axis] != 0)

@@ -10,6 +10,7 @@ using Action = std::function<int()>;
 
 /// Each declares a verb with its options and examples.
 void addRun(CLI::App& program, Action& action);
+void addFoam(CLI::App& program, Action& action);
 void addCheck(CLI::App& program, Action& action);
 void addInfo(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);

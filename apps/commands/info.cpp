@@ -4,11 +4,11 @@
 #include <iostream>
 #include <memory>
 
-#include "apps/cache_listing.h"
 #include "apps/commands/commands.h"
 #include "apps/exit_code.h"
 #include "apps/report.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/cache_listing.h"
 #include "coupling/liquid_cache.h"
 
 namespace spume::apps {
@@ -28,7 +28,7 @@ void describeLiquid(const coupling::LiquidFrame& frame, Report& report) {
   report.add("cells_y", grid.cells.y());
   report.add("cells_z", grid.cells.z());
   report.add("dx", grid.dx, "m");
-  report.add("liquid_volume", cachedLiquidVolume(frame), "m^3");
+  report.add("liquid_volume", coupling::cachedLiquidVolume(frame), "m^3");
 }
 
 void describeBubbles(const foam::BubbleStore& bubbles, Report& report) {
@@ -72,16 +72,16 @@ void describeFile(const std::string& path, Report& report) {
 }
 
 void describeFolder(const std::string& path, Report& report) {
-  const CacheListing liquid = listCache(path + "/liquid", "liquid", "vdb");
-  const CacheListing bubbles = listCache(path + "/bubbles", "bubbles", "vdb");
-  const CacheListing plain = listCache(path + "/bubbles", "bubbles", "ply");
-  const CacheListing pictures = listCache(path + "/preview", "preview", "png");
+  const coupling::CacheListing liquid = coupling::listCache(path + "/liquid", "liquid", "vdb");
+  const coupling::CacheListing bubbles = coupling::listCache(path + "/bubbles", "bubbles", "vdb");
+  const coupling::CacheListing plain = coupling::listCache(path + "/bubbles", "bubbles", "ply");
+  const coupling::CacheListing pictures = coupling::listCache(path + "/preview", "preview", "png");
   if (liquid.frames.empty() && bubbles.frames.empty() && plain.frames.empty() &&
       !fs::exists(path + "/scene.toml"))
     throw coupling::SceneError(path + ": holds no run (no scene.toml, liquid/ or bubbles/)");
-  report.add("liquid_frames", describeFrames(liquid));
-  report.add("bubble_frames", describeFrames(bubbles.frames.empty() ? plain : bubbles));
-  report.add("pictures", describeFrames(pictures));
+  report.add("liquid_frames", coupling::describeFrames(liquid));
+  report.add("bubble_frames", coupling::describeFrames(bubbles.frames.empty() ? plain : bubbles));
+  report.add("pictures", coupling::describeFrames(pictures));
   report.add("bytes", static_cast<double>(liquid.bytes + bubbles.bytes + plain.bytes + pictures.bytes));
   if (!liquid.frames.empty()) {
     const coupling::LiquidFrame last = coupling::readLiquidFrame(liquid.paths.back());

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "apps/cache_listing.h"
 #include "apps/commands/commands.h"
 #include "apps/duration.h"
 #include "apps/exit_code.h"
@@ -18,6 +17,7 @@
 #include "apps/preview/renderer.h"
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/cache_listing.h"
 #include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_toml.h"
@@ -94,8 +94,8 @@ PreviewStyle styleNamed(const std::string& name) {
 
 /// Says which frames asked for cannot be drawn, or are drawn without their bubbles, because a cache lacks
 /// them. Where no frames were asked for, those between the first and the last cached one are.
-void warnOfGaps(const coupling::Scene& scene, const std::string& folder, const CacheListing& cache, int first,
-                int last) {
+void warnOfGaps(const coupling::Scene& scene, const std::string& folder, const coupling::CacheListing& cache,
+                int first, int last) {
   if (cache.frames.empty()) return;
   if (last == std::numeric_limits<int>::max()) first = cache.frames.front(), last = cache.frames.back();
   std::vector<int> absent, bare;
@@ -108,9 +108,11 @@ void warnOfGaps(const coupling::Scene& scene, const std::string& folder, const C
     if (drawn && !fs::exists(path + ".vdb") && !fs::exists(path + ".ply")) bare.push_back(cache.frames[f]);
   }
   if (!absent.empty())
-    std::cout << "warning: no cached liquid for " << describeNumbers(absent) << ": left out" << std::endl;
+    std::cout << "warning: no cached liquid for " << coupling::describeNumbers(absent) << ": left out"
+              << std::endl;
   if (!bare.empty())
-    std::cout << "warning: no cached bubbles for " << describeNumbers(bare) << ": drawn without" << std::endl;
+    std::cout << "warning: no cached bubbles for " << coupling::describeNumbers(bare) << ": drawn without"
+              << std::endl;
 }
 
 /// Draws one cached frame.
@@ -128,7 +130,7 @@ void renderFrame(const coupling::Scene& scene, const std::string& folder, const 
 int render(const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const coupling::Scene scene = coupling::readScene(options.folder + "/scene.toml");
-  const CacheListing cache = listCache(options.folder + "/liquid", "liquid", "vdb");
+  const coupling::CacheListing cache = coupling::listCache(options.folder + "/liquid", "liquid", "vdb");
   const auto [first, last] = framesOf(options.frames);
   const auto [width, height] = *numberPair(options.size, 'x');
   const PreviewSettings settings{
@@ -146,7 +148,7 @@ int render(const RenderOptions& options) {
   if (done > 0) warnOfGaps(scene, options.folder, cache, first, last);
   if (done == 0)
     throw coupling::SceneError(options.folder + ": no cached liquid in these frames; it holds " +
-                               describeFrames(cache));
+                               coupling::describeFrames(cache));
   const std::string problem =
       done > 1 ? writeMovie(target + "/" + options.style, scene.time.fps / scene.output.every,
                             target + "/" + options.style + ".mp4")

@@ -1,4 +1,4 @@
-#include "apps/cache_listing.h"
+#include "coupling/cache_listing.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,7 +8,7 @@
 #include "fluid/level_set.h"
 #include "fluid/parallel.h"
 
-namespace spume::apps {
+namespace spume::coupling {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,7 +72,7 @@ std::string describeNumbers(const std::vector<int>& numbers) {
   return text;
 }
 
-double cachedLiquidVolume(const coupling::LiquidFrame& frame) {
+double cachedLiquidVolume(const LiquidFrame& frame) {
   const fluid::GridSpec& grid = frame.liquid.grid;
   const fluid::DenseField<float> phi = withGhosts(frame.liquid.phi);
   const float dx = static_cast<float>(grid.dx);
@@ -90,4 +90,4 @@ double cachedLiquidVolume(const coupling::LiquidFrame& frame) {
   return cells * grid.cellVolume();
 }
 
-}  // namespace spume::apps
+}  // namespace spume::coupling

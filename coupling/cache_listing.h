@@ -6,13 +6,15 @@
 
 #include "coupling/liquid_cache.h"
 
-namespace spume::apps {
+namespace spume::coupling {
 
 /// The numbered files of one kind in a run's folder, and what they weigh.
 struct CacheListing {
   std::vector<int> frames;         ///< ascending
   std::vector<std::string> paths;  ///< of the frames
   std::uintmax_t bytes = 0;
+
+  int lastFrame() const { return frames.empty() ? 0 : frames.back(); }
 };
 
 /// Files `stem`.####.`extension` of `folder`, e.g. ("out/pouring/liquid", "liquid", "vdb"). Empty if there
@@ -26,6 +28,6 @@ std::string describeFrames(const CacheListing& listing);
 std::string describeNumbers(const std::vector<int>& numbers);
 
 /// Volume of the grid liquid of a cached frame [m^3], solids left out.
-double cachedLiquidVolume(const coupling::LiquidFrame& frame);
+double cachedLiquidVolume(const LiquidFrame& frame);
 
-}  // namespace spume::apps
+}  // namespace spume::coupling

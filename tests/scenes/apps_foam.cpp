@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "coupling/bubble_cache.h"
+#include "coupling/cache_listing.h"
+#include "coupling/liquid_recording.h"
+#include "tests/support/apps_program.h"
+
+namespace spume::apps::test {
+namespace {
+
+/// A jet into a pool, small enough for a test and fast enough to catch air; a source beside it.
+const std::string kPour =
+    "[domain]\nsize = [0.06, 0.06, 0.06]\nresolution = 16\n"
+    "[output]\npreview = false\ncheckpoint_every = 2\n"
+    "[coupling.entrainment]\nblock_size = 0.01\nonset = 0.7\n"
+    "[[liquid_body]]\nname = \"pool\"\nshape = \"box\"\nlower = [-0.01, -0.01, -0.01]\nupper = [0.07, 0.02, "
+    "0.07]\n"
+    "[[inflow]]\nname = \"jet\"\ncentre = [0.025, 0.05, 0.03]\ndirection = [0, -1, 0]\nradius = 0.008\nspeed "
+    "= 1.2\n"
+    "[[bubble_source]]\nname = \"air\"\nshape = \"box\"\nlower = [0.04, 0.004, 0.01]\nupper = [0.055, 0.01, "
+    "0.05]\nrate = 400\n"
+    "[[probe]]\nname = \"deep\"\nkind = \"pressure\"\nposition = [0.03, 0.01, 0.03]\n";
+
+constexpr int kFrames = 9;
+constexpr double kClosedTwice =
+    0.01;  // of the volume: a surface closed at the walls moves when it is closed again
+
+/// The pour, run once for all tests.
+class FoamAgain : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new Scratch;
+    const std::string scene = scratch_->write("pour.toml", kPour);
+    const Outcome done = runSpume("run " + scene + " --frames 9 -o " + run());
+    ASSERT_EQ(done.code, 0) << done.errors;
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  static std::string run() { return *scratch_ / "run"; }
+  static std::string at(const std::string& name) { return *scratch_ / name; }
+  static foam::BubbleStore lastBubbles(const std::string& folder) {
+    return coupling::readBubblesVdb(folder + "/bubbles/bubbles.0009.vdb").bubbles;
+  }
+
+  static Scratch* scratch_;
+};
+Scratch* FoamAgain::scratch_ = nullptr;
+
+TEST_F(FoamAgain, BearsTheSameBubblesInTheSameLiquid) {
+  const Outcome done = runSpume("foam " + run() + " -o " + at("same"));
+  ASSERT_EQ(done.code, 0) << done.errors;
+  EXPECT_NE(done.output.find("probes of a pressure are left out"), std::string::npos);
+  const coupling::LiquidRecording before(run()), again(at("same"));
+  ASSERT_GT(before.births().size(), 5u) << "the jet must catch air";
+  ASSERT_EQ(again.births().size(), before.births().size());
+  for (std::size_t n = 0; n < before.births().size(); ++n) {
+    EXPECT_EQ(again.births()[n].position, before.births()[n].position) << n;
+    EXPECT_EQ(again.births()[n].radius, before.births()[n].radius) << n;
+  }
+  ASSERT_EQ(again.steps().size(), before.steps().size()) << "the recorded steps are taken";
+  for (int n = 0; n < kFrames; ++n) {
+    const auto there = coupling::readLiquidFrame(before.frames().paths[n]),
+               here = coupling::readLiquidFrame(again.frames().paths[n]);
+    EXPECT_NEAR(coupling::cachedLiquidVolume(here), coupling::cachedLiquidVolume(there),
+                kClosedTwice * coupling::cachedLiquidVolume(there))
+        << "frame " << n + 1;
+  }
+  const foam::BubbleStore there = lastBubbles(run()), here = lastBubbles(at("same"));
+  ASSERT_GT(there.size(), 50u);
+  EXPECT_NEAR(static_cast<double>(here.size()), static_cast<double>(there.size()), 0.1 * there.size());
+  double heightThere = 0, heightHere = 0;
+  for (const auto& x : there.position) heightThere += x.y() / there.size();
+  for (const auto& x : here.position) heightHere += x.y() / here.size();
+  const double dx = 0.06 / 16;
+  EXPECT_NEAR(heightHere, heightThere, 0.5 * dx) << "velocities are means of cell centres, once blended";
+}
+
+TEST_F(FoamAgain, TakesOtherKeysOfTheFoam) {
+  const Outcome done = runSpume("foam " + run() + " -o " + at("none") +
+                                " --set coupling.entrainment.enabled=false --set bubble_source.0.rate=0");
+  ASSERT_EQ(done.code, 0) << done.errors;
+  EXPECT_EQ(lastBubbles(at("none")).size(), 0u);
+  const Outcome many = runSpume("foam " + run() + " -o " + at("many") + " --set bubble_source.0.rate=1200");
+  ASSERT_EQ(many.code, 0) << many.errors;
+  EXPECT_GT(lastBubbles(at("many")).size(), lastBubbles(run()).size() + 100);
+}
+
+TEST_F(FoamAgain, GoesOnAsIfItHadNotStopped) {
+  ASSERT_EQ(runSpume("foam " + run() + " -o " + at("whole")).code, 0);
+  ASSERT_EQ(runSpume("foam " + run() + " -o " + at("halves") + " --frames 5 --threads 1").code, 0);
+  ASSERT_EQ(runSpume("foam " + run() + " -o " + at("halves")).code, 0);
+  for (const char* file : {"/liquid/liquid.0009.vdb", "/bubbles/bubbles.0009.vdb", "/events.csv"}) {
+    ASSERT_FALSE(contentsOf(at("whole") + file).empty()) << file;
+    EXPECT_EQ(contentsOf(at("whole") + file), contentsOf(at("halves") + file)) << file;
+  }
+}
+
+TEST_F(FoamAgain, RefusesAnotherLiquid) {
+  const std::string verb = "foam " + run() + " -o " + at("refused");
+  expectRefused(runSpume(verb + " --set liquid.cfl=2"), 2, "liquid.cfl = 4 there, 2 here");
+  expectRefused(runSpume(verb + " --set domain.resolution=20"), 2, "domain.resolution");
+  expectRefused(runSpume(verb + " --set inflow.0.speed=1"), 2, "inflow.0.speed");
+  expectRefused(runSpume(verb + " --set coupling.entrainment.sigma=0.1"), 2, "coupling.entrainment.sigma");
+  expectRefused(runSpume(verb + " --frames 10"), 2, "up to frame 9");
+  expectRefused(runSpume("foam " + run() + " -o " + run() + "/"), 2, "is the folder whose liquid is read");
+  expectRefused(runSpume("foam " + at("nothing")), 4, "nothing/scene.toml");
+  EXPECT_FALSE(std::filesystem::exists(at("refused") + "/scene.toml"));
+}
+
+TEST_F(FoamAgain, NeedsCachedLiquid) {
+  const std::string scene = scratch_->write("bare.toml", kPour);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 1 --set output.liquid=false -o " + at("bare")).code, 0);
+  expectRefused(runSpume("foam " + at("bare")), 2, "holds no cached liquid");
+}
+
+}  // namespace
+}  // namespace spume::apps::test
