@@ -45,6 +45,15 @@ double parseDuration(const std::string& text) {
   return total;
 }
 
+std::string durationProblem(const std::string& text) {
+  try {
+    parseDuration(text);
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
 std::string formatDuration(double seconds) {
   char text[48];
   if (seconds < 10)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <exception>
+
 namespace spume::apps {
 
 /// What the program tells its caller; scripts and batch systems rely on these numbers.
@@ -12,5 +14,8 @@ enum ExitCode : int {
   kInterrupted = 130,  ///< SIGINT, after a checkpoint
   kTerminated = 143,   ///< SIGTERM, after a checkpoint
 };
+
+/// The code of a verb that ended with this error.
+ExitCode exitCodeOf(const std::exception& error);
 
 }  // namespace spume::apps

@@ -9,9 +9,6 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/reproduce.h"
 #include "apps/exit_code.h"
-#include "coupling/errors.h"
-#include "fluid/errors.h"
-#include "foam/errors.h"
 
 namespace spume::apps {
 namespace {
@@ -25,19 +22,11 @@ int complain(const std::exception& error, ExitCode code) {
 int perform(const Action& action) {
   try {
     return action();
-  } catch (const coupling::SceneError& error) {
-    return complain(error, kUsage);
-  } catch (const fluid::InvalidParameter& error) {
-    return complain(error, kUsage);
-  } catch (const foam::InvalidParameter& error) {
-    return complain(error, kUsage);
-  } catch (const coupling::FileError& error) {
-    return complain(error, kInputOutput);
   } catch (const std::bad_alloc&) {
     std::cerr << "spume: out of memory; a lower --resolution needs less" << std::endl;
     return kFailed;
-  } catch (const std::exception& error) {  // numerical failures among them
-    return complain(error, kFailed);
+  } catch (const std::exception& error) {
+    return complain(error, exitCodeOf(error));
   }
 }
 
@@ -71,6 +60,8 @@ int parseAndPerform(int argc, char** argv) {
   addRender(program, action);
   addMeasure(program, action);
   addReproduce(program, action);
+  addTrade(program, action);
+  addWedge(program, action);
   if (const std::string problem = verbProblem(program, argc, argv); !problem.empty())
     return complain(std::invalid_argument(problem), kUsage);
   try {

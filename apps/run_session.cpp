@@ -1,5 +1,7 @@
 #include "apps/run_session.h"
 
+#include <tbb/global_control.h>
+
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -194,5 +196,15 @@ ExitCode Session::run() {
 }  // namespace
 
 ExitCode runSession(const SessionOptions& options) { return Session(options).run(); }
+
+void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart) {
+  SessionOptions session;
+  session.scene = scene;
+  session.folder = folder;
+  session.restart = restart;
+  session.threads =
+      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (const ExitCode code = runSession(session); code != kDone) throw Stopped(code);
+}
 
 }  // namespace spume::apps

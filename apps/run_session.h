@@ -22,4 +22,7 @@ struct SessionOptions {
 /// NumericalFailure.
 ExitCode runSession(const SessionOptions& options);
 
+/// The same on all cores for a verb that runs many scenes. Throws Stopped if it was interrupted.
+void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart);
+
 }  // namespace spume::apps

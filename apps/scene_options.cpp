@@ -10,7 +10,7 @@ namespace {
 /// about five times.
 double cellFactor(const std::string& quality) { return quality == "draft" ? 0.625 : 1.5; }
 
-std::pair<std::string, std::string> splitAssignment(const std::string& text) {
+coupling::Override splitAssignment(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw coupling::SceneError("--set " + text + ": expected table.key=value, e.g. --set foam.wetness=0.5");
@@ -34,18 +34,34 @@ void SceneOptions::addTo(CLI::App& verb) {
       ->allow_extra_args(false);
 }
 
-coupling::Scene SceneOptions::read() const {
+coupling::Overrides SceneOptions::given() const {
   coupling::Overrides overrides;
   for (const std::string& assignment : set) overrides.push_back(splitAssignment(assignment));
-  if (!seed.empty()) overrides.emplace_back("scene.seed", seed);
-  if (!frames.empty()) overrides.emplace_back("time.frames", frames);
-  if (!resolution.empty()) overrides.emplace_back("domain.resolution", resolution);
-  const bool scaled = !quality.empty() && quality != "standard";
-  if (!scaled) return coupling::readScene(path, overrides);
+  if (!seed.empty()) overrides.push_back({"scene.seed", seed});
+  if (!frames.empty()) overrides.push_back({"time.frames", frames});
+  if (!resolution.empty()) overrides.push_back({"domain.resolution", resolution});
+  return overrides;
+}
 
-  const long cells = std::lround(cellFactor(quality) * coupling::readScene(path).domain.resolution);
-  coupling::Overrides all{{"domain.resolution", std::to_string(cells)}};
-  all.insert(all.end(), overrides.begin(), overrides.end());
+void SceneOptions::requireNew(const coupling::Override& further) const {
+  const auto refuse = [&](const std::string& other) {
+    throw coupling::SceneError(further.text() + ": the same key is given by " + other +
+                               "; leave one of them out");
+  };
+  for (const coupling::Override& other : given())
+    if (other.key == further.key) refuse(other.text());
+  if (!quality.empty() && further.key == "domain.resolution") refuse("--quality " + quality);
+}
+
+coupling::Scene SceneOptions::read(const coupling::Overrides& further) const {
+  const coupling::Overrides options = given();
+  coupling::Overrides all;
+  if (!quality.empty() && quality != "standard") {
+    const long cells = std::lround(cellFactor(quality) * coupling::readScene(path).domain.resolution);
+    all.push_back({"domain.resolution", std::to_string(cells)});
+  }
+  all.insert(all.end(), options.begin(), options.end());
+  all.insert(all.end(), further.begin(), further.end());
   return coupling::readScene(path, all);
 }
 

@@ -16,9 +16,14 @@ struct SceneOptions {
 
   /// Declares the options on a verb.
   void addTo(CLI::App& verb);
-  /// The scene with everything applied, in the order --quality, --set, then the named options.
+  /// The scene with everything applied, in the order --quality, --set, the named options, then `further`.
   /// Throws coupling::SceneError or coupling::FileError.
-  coupling::Scene read() const;
+  coupling::Scene read(const coupling::Overrides& further = {}) const;
+  /// Throws coupling::SceneError if an option sets the same key.
+  void requireNew(const coupling::Override& further) const;
+
+ private:
+  coupling::Overrides given() const;
 };
 
 }  // namespace spume::apps

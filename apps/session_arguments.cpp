@@ -8,20 +8,6 @@
 #include "apps/run_session.h"
 
 namespace spume::apps {
-namespace {
-
-/// CLI11's form of a check: an empty string, or what is wrong.
-std::string durationProblem(const std::string& text) {
-  try {
-    parseDuration(text);
-    return {};
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-}
-
-}  // namespace
-
 void SessionArguments::addTo(CLI::App& verb, const std::string& defaultFolder) {
   verb.add_option("-o,--output", output, "folder for caches and pictures; default " + defaultFolder)
       ->type_name("DIR");

@@ -67,22 +67,21 @@ toml::node* childOf(toml::node& node, const std::string& part) {
 
 SceneDocument::SceneDocument(const std::string& path, const Overrides& overrides)
     : path_(path), root_(parse(readFile(path), path)) {
-  for (const auto& [key, value] : overrides) applyOverride(key, value);
+  for (const Override& given : overrides) apply(given);
 }
 
-void SceneDocument::applyOverride(const std::string& key, const std::string& value) {
-  const std::string place = "--set " + key + "=" + value;
-  const std::vector<std::string> parts = splitAtDots(key);
+void SceneDocument::apply(const Override& given) {
+  const std::vector<std::string> parts = splitAtDots(given.key);
   toml::node* node = &root_;
   for (std::size_t i = 0; node && i + 1 < parts.size(); ++i) node = childOf(*node, parts[i]);
   toml::table* table = node ? node->as_table() : nullptr;
   if (!table)
-    throw SceneError(place +
+    throw SceneError(given.text() +
                      ": there is no such table in the scene; use table.key, or array.0.key for an item that "
                      "the file holds");
-  toml::table parsed = valueTable(value);
+  toml::table parsed = valueTable(given.value);
   parsed.begin()->second.visit([&](auto& typed) { table->insert_or_assign(parts.back(), std::move(typed)); });
-  overrides_[key] = place;
+  overrides_[given.key] = given.text();
 }
 
 std::string SceneDocument::place(const std::string& key, const toml::source_region& source) const {

@@ -16,13 +16,13 @@ class SceneDocument {
   SceneDocument(const std::string& path, const Overrides& overrides);
 
   const toml::table& root() const { return root_; }
-  /// "file:line:column", or "--set key=value" where an override put the value of `key`.
+  /// "file:line:column", or what Override::text() says where an override put the value of `key`.
   std::string place(const std::string& key, const toml::source_region& source) const;
   /// Place of a dotted key, as near as the file says it: the value, else its table, else the file.
   std::string place(const std::string& key) const;
 
  private:
-  void applyOverride(const std::string& key, const std::string& value);
+  void apply(const Override& given);
 
   std::string path_;
   toml::table root_;

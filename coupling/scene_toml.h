@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "coupling/errors.h"
@@ -9,9 +8,16 @@
 
 namespace spume::coupling {
 
-/// ("table.key", "TOML value"), or ("array.0.key", ...) for an item that the file holds. A value that is no
-/// TOML is taken as a string, so that shells need no second pair of quotes.
-using Overrides = std::vector<std::pair<std::string, std::string>>;
+/// A value put in place of the file's. A value that is no TOML is taken as a string, so that shells need no
+/// second pair of quotes.
+struct Override {
+  std::string key;               ///< "table.key", or "array.0.key" for an item that the file holds
+  std::string value;             ///< as TOML writes it
+  std::string option = "--set";  ///< of the command line that gives it, for messages
+
+  std::string text() const { return option + " " + key + "=" + value; }
+};
+using Overrides = std::vector<Override>;
 
 /// Reads a scene file; where it gives no name, the scene takes the file's. `overrides` are applied as if
 /// written in it (the command line's --set). Throws SceneError or FileError.

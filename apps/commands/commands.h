@@ -15,5 +15,7 @@ void addCheck(CLI::App& program, Action& action);
 void addInfo(CLI::App& program, Action& action);
 void addRender(CLI::App& program, Action& action);
 void addMeasure(CLI::App& program, Action& action);
+void addWedge(CLI::App& program, Action& action);
+void addTrade(CLI::App& program, Action& action);
 
 }  // namespace spume::apps

@@ -1,7 +1,5 @@
 #include "apps/commands/reproduce.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -25,17 +23,6 @@ struct ReproduceOptions {
   int frames = 0;
   bool list = false, restart = false;
 };
-
-/// Runs a scene as `spume run` does. Throws Stopped if it was interrupted.
-void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart) {
-  SessionOptions session;
-  session.scene = scene;
-  session.folder = folder;
-  session.restart = restart;
-  session.threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-  if (const ExitCode code = runSession(session); code != kDone) throw Stopped(code);
-}
 
 StudyContext contextOf(const Reproduction& table, const ReproduceOptions& options) {
   StudyContext context{options.output + "/" + table.name, options.frames, options.scenes, options.runs, {}};

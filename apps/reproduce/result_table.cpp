@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "apps/reproduce/csv_field.h"
 #include "coupling/errors.h"
 
 namespace spume::apps {
@@ -32,31 +33,6 @@ std::string exactText(double value) {
 
 std::string withUnit(const std::string& value, const std::string& unit) {
   return unit.empty() ? value : value + " " + unit;
-}
-
-/// A field of CSV: quoted where it holds a comma or a quote.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string quoted(1, '"');
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  quoted += '"';
-  return quoted;
-}
-
-std::vector<std::string> fieldsOf(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t n = 0; n < line.size(); ++n) {
-    if (line[n] == '"' && quoted && n + 1 < line.size() && line[n + 1] == '"')
-      fields.back() += line[n++];
-    else if (line[n] == '"')
-      quoted = !quoted;
-    else if (line[n] == ',' && !quoted)
-      fields.emplace_back();
-    else
-      fields.back() += line[n];
-  }
-  return fields;
 }
 
 ResultRow rowOf(const std::vector<std::string>& f) {
@@ -136,7 +112,7 @@ std::string ResultTable::csv() const {
                                         kVerdicts[static_cast<int>(r.verdict)],
                                         shortText(r.seconds),
                                         r.note};
-    for (std::size_t n = 0; n < kFields; ++n) text.append(n ? "," : "").append(field(cells[n]));
+    for (std::size_t n = 0; n < kFields; ++n) text.append(n ? "," : "").append(csvField(cells[n]));
     text += "\n";
   }
   return text;
@@ -167,7 +143,7 @@ void ResultTable::readCsv(const std::string& text, const std::string& path) {
       if (line != kHeader) throw coupling::SceneError(path + ": is not a table of results");
       continue;
     }
-    const std::vector<std::string> fields = fieldsOf(line);
+    const std::vector<std::string> fields = csvFields(line);
     if (fields.size() != kFields)
       throw coupling::SceneError(path + ":" + std::to_string(number) + ": " + std::to_string(fields.size()) +
                                  " fields, expected " + std::to_string(kFields));

@@ -1,14 +1,9 @@
-#include <algorithm>
-
 #include "apps/reproduce/scene_figures.h"
 #include "apps/reproduce/scene_studies.h"
 #include "apps/reproduce/svg_plot.h"
 
 namespace spume::apps {
 namespace {
-
-/// Share of the run, at its end, over which the shares are averaged: the pour itself tears clusters up.
-constexpr double kLatePart = 1.0 / 3;
 
 /// How the floating bubbles of a run lie, cached frame by cached frame.
 struct CensusCurves {
@@ -26,14 +21,6 @@ CensusCurves censusOf(const SceneRun& run) {
     curves.clinging.push_back(100 * now.clinging);
   }
   return curves;
-}
-
-double lateMean(const std::vector<double>& column) {
-  const auto late = static_cast<std::size_t>(kLatePart * static_cast<double>(column.size())) + 1;
-  const std::size_t count = std::min(late, column.size());
-  double sum = 0;
-  for (std::size_t n = column.size() - count; n < column.size(); ++n) sum += column[n];
-  return sum / static_cast<double>(count);
 }
 
 void addShares(const SceneRun& run, const CensusCurves& curves, std::vector<ResultRow>& rows) {

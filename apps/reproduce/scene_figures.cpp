@@ -115,6 +115,14 @@ double totalOf(const std::vector<double>& column) {
   return std::accumulate(column.begin(), column.end(), 0.0);
 }
 
+double lateMean(const std::vector<double>& column) {
+  const auto late = static_cast<std::size_t>(kLatePart * static_cast<double>(column.size())) + 1;
+  const std::size_t count = std::min(late, column.size());
+  double sum = 0;
+  for (std::size_t n = column.size() - count; n < column.size(); ++n) sum += column[n];
+  return sum / static_cast<double>(count);
+}
+
 double meanWhenFull(const SceneRun& run, const std::vector<double>& column) {
   const double full = kFullShare * mostOf(run.frames.bubbles);
   double sum = 0, frames = 0;
@@ -129,6 +137,14 @@ double leastWhenFull(const SceneRun& run, const std::vector<double>& column) {
   for (std::size_t f = 0; f < column.size(); ++f)
     if (run.frames.bubbles[f] >= full) least = std::min(least, column[f]);
   return least;
+}
+
+double worstDrift(const FrameCurves& frames) {
+  double worst = 0;
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    if (frames.targetVolume[f] > 0)
+      worst = std::max(worst, std::abs(frames.liquidVolume[f] / frames.targetVolume[f] - 1));
+  return worst;
 }
 
 std::vector<ResultRow> commonFigures(const SceneRun& run, const PaperFigures& paper) {

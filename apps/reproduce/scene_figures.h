@@ -33,6 +33,15 @@ double meanWhenFull(const SceneRun& run, const std::vector<double>& column);
 double leastWhenFull(const SceneRun& run, const std::vector<double>& column);
 double totalOf(const std::vector<double>& column);
 
+/// Share of a run, at its end, that figures of its later state are averaged over: a pour, while it lasts,
+/// tears clusters up.
+inline constexpr double kLatePart = 1.0 / 3;
+/// Mean of a column over that part; NaN of nothing.
+double lateMean(const std::vector<double>& column);
+
+/// Largest |V - V0|/V0 of the grid liquid over the frames, V0 what it should be; 0 without liquid [-].
+double worstDrift(const FrameCurves& frames);
+
 /// Bubbles, contacts, faces, seconds and steps a frame, errors of volume, bubbles lost and inside solids.
 std::vector<ResultRow> commonFigures(const SceneRun& run, const PaperFigures& paper);
 

@@ -56,11 +56,9 @@ void foldSteps(const std::string& folder, FrameCurves& curves) {
   }
 }
 
-coupling::Scene sceneOf(const StudyContext& context, const std::string& name,
-                        const coupling::Overrides& overrides) {
-  coupling::Scene scene = coupling::readScene(context.scenes + "/" + name + ".toml", overrides);
-  if (context.frames > 0) scene.time.frames = context.frames;
-  coupling::OutputSpec& output = scene.output;  // the figures need the PLY of bubbles alone
+/// The figures need the PLY of bubbles alone.
+coupling::Scene withoutCaches(coupling::Scene scene) {
+  coupling::OutputSpec& output = scene.output;
   output.preview = output.liquid = output.bubblesVdb = output.dropsVdb = output.dropsPly = false;
   return scene;
 }
@@ -76,7 +74,14 @@ FrameCurves readFrameCurves(const std::string& folder) {
                   {"bubbles", curves.bubbles},
                   {"bubbles_surface", curves.surface},
                   {"contacts", curves.contacts},
+                  {"births", curves.births},
                   {"seconds", curves.seconds},
+                  {"seconds_liquid", curves.liquidSeconds},
+                  {"liquid_volume", curves.liquidVolume},
+                  {"target_volume", curves.targetVolume},
+                  {"pressure_iterations", curves.pressureIterations},
+                  {"foam_iterations", curves.foamIterations},
+                  {"gas_in_bubbles", curves.gas},
                   {"volume_error_max", curves.worstVolume},
                   {"volume_error_median", curves.medianVolume}});
   foldSteps(folder, curves);
@@ -93,9 +98,15 @@ Eigen::VectorXd SceneRun::distanceToSolids(const std::vector<Eigen::Vector3d>& p
 
 SceneRun runScene(const StudyContext& context, const std::string& name, const std::string& variant,
                   const coupling::Overrides& overrides) {
+  coupling::Scene scene = coupling::readScene(context.scenes + "/" + name + ".toml", overrides);
+  if (context.frames > 0) scene.time.frames = context.frames;
+  return runScene(context, scene, variant);
+}
+
+SceneRun runScene(const StudyContext& context, const coupling::Scene& scene, const std::string& variant) {
   SceneRun run;
   run.name = variant;
-  run.scene = sceneOf(context, name, overrides);
+  run.scene = withoutCaches(scene);
   run.folder = context.runs + "/" + variant;
   context.runScene(run.scene, run.folder);
   run.frames = readFrameCurves(run.folder);

@@ -19,8 +19,12 @@ struct FrameCurves {
   std::vector<double> bubbles, surface, contacts;  ///< at the frame's end [-]
   std::vector<double> overlaps, flagged;           ///< pairs of balls; hidden or at their limit [-]
   std::vector<double> seconds, foamSeconds;        ///< whole; without the liquid, as the paper counts [s]
+  std::vector<double> liquidSeconds;               ///< of the liquid [s]
   std::vector<double> diagramSeconds;              ///< of power cells, contacts and volumes [s]
   std::vector<double> worstVolume, medianVolume;   ///< |V - V0|/V0 of unflagged bubbles [-]
+  std::vector<double> births, gas;                 ///< in the frame [-]; in the bubbles at its end [m^3]
+  std::vector<double> liquidVolume, targetVolume;  ///< of the grid liquid, and what it should be [m^3]
+  std::vector<double> foamIterations, pressureIterations;  ///< of their solvers, summed over the frame [-]
 
   std::size_t size() const { return frame.size(); }
 };
@@ -43,8 +47,11 @@ struct SceneRun {
   Eigen::VectorXd distanceToSolids(const std::vector<Eigen::Vector3d>& points) const;
 };
 
-/// Runs `name`.toml, or goes on with it, in the folder `variant` of the runs, and reads what it left. Throws
-/// what the run throws, and SceneError or FileError.
+/// Runs a scene, or goes on with it, in the folder `variant` of the runs, and reads what it left. The run
+/// writes no caches but the PLY of bubbles. Throws what the run throws, and SceneError or FileError.
+SceneRun runScene(const StudyContext& context, const coupling::Scene& scene, const std::string& variant);
+
+/// The same of `name`.toml in the folder of the scenes, as long as the context says.
 SceneRun runScene(const StudyContext& context, const std::string& name, const std::string& variant,
                   const coupling::Overrides& overrides = {});
 

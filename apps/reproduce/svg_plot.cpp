@@ -121,15 +121,18 @@ class Panel {
 
   std::string curve(std::size_t index) const {
     const Curve& c = plot_.curves[index];
-    std::string path;
+    std::string path, dots;
     bool down = false;
     for (std::size_t n = 0; n < c.x.size(); ++n) {
       const bool shown = x_.shows(c.x[n]) && y_.shows(c.y[n]) && c.y[n] >= y_.lowest;
       if (shown) path += formatted(down ? "L%.1f %.1f" : "M%.1f %.1f", x_.at(c.x[n]), y_.at(c.y[n]));
+      if (shown && c.dots)
+        dots += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"", x_.at(c.x[n]), y_.at(c.y[n])) +
+                " fill=\"" + colour(index) + "\"/>\n";
       down = shown;
     }
     return "<path fill=\"none\" stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke=\"" + colour(index) +
-           "\" d=\"" + path + "\"/>\n";
+           "\" d=\"" + path + "\"/>\n" + dots;
   }
 
   /// The names of the curves in a row under the title.

@@ -10,6 +10,7 @@ namespace spume::apps {
 struct Curve {
   std::string name;  ///< in the legend
   std::vector<double> x, y;
+  bool dots = false;  ///< marks every point: for few of them
 };
 
 /// One panel: axes with ticks, a legend and curves. Labels carry the units.

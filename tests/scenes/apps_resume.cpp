@@ -5,19 +5,10 @@
 #include <vector>
 
 #include "tests/support/apps_program.h"
+#include "tests/support/pouring_scene.h"
 
 namespace spume::apps::test {
 namespace {
-
-/// A jet into a pool, small enough for a test and fast enough to catch air.
-const std::string kPour =
-    "[domain]\nsize = [0.06, 0.06, 0.06]\nresolution = 16\n"
-    "[output]\npreview = false\ncheckpoint_every = 2\n"
-    "[coupling.entrainment]\nblock_size = 0.01\n"
-    "[[liquid_body]]\nname = \"pool\"\nshape = \"box\"\nlower = [-0.01, -0.01, -0.01]\nupper = [0.07, 0.02, "
-    "0.07]\n"
-    "[[inflow]]\nname = \"jet\"\ncentre = [0.025, 0.05, 0.03]\ndirection = [0, -1, 0]\nradius = 0.008\nspeed "
-    "= 1.2\n";
 
 /// The file without its columns of wall time.
 std::string withoutSeconds(const std::string& csv) {

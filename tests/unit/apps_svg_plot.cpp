@@ -37,6 +37,13 @@ TEST(Plot, ShowsEveryPanelCurveLabelAndName) {
     EXPECT_EQ(count(svg, std::string(">") + words + "<"), 2u) << words;
 }
 
+TEST(Plot, MarksThePointsOfACurveThatAsksForIt) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string svg =
+      svgOf({{"t", "x", "y", {{"plain", {0, 1}, {0, 1}}, {"dotted", {0, 1, 2}, {1, nan, 2}, true}}}});
+  EXPECT_EQ(count(svg, "<circle"), 2u) << "of the points that can be shown";
+}
+
 TEST(Plot, BreaksTheLineWhereNothingCanBeShown) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string svg = svgOf({{"t", "x", "y", {{"c", {0, 1, 2, 3}, {1, nan, 2, 3}}}}});

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "apps/reproduce/scene_run.h"
+
+namespace spume::apps {
+
+/// What a scene is judged by: a figure of its run.
+struct TradeFigure {
+  const char *name, *unit;
+  double share;   ///< smallest difference anybody would see, of the figure itself [-]
+  double amount;  ///< the same in the figure's unit; the larger of both counts
+};
+
+/// Figures of the last third of a run are means over its frames, or over the cached ones.
+inline constexpr std::array<TradeFigure, 9> kTradeFigures{{
+    {"bubbles alive", "", 0.01, 0},
+    {"births", "", 0.01, 0},
+    {"contacts", "", 0.01, 0},
+    {"mean height of the gas", "mm", 0.01, 0},
+    {"height 95 % of the gas lies below", "mm", 0.01, 0},
+    {"floating bubbles in contact", "%", 0, 1},
+    {"gas in bubbles", "ml", 0.01, 0},
+    {"liquid off, worst frame", "%", 0, 0.1},
+    {"cell volume off, worst late frame", "%", 0, 0.1},
+}};
+
+/// What a run cost.
+struct TradeCost {
+  double seconds = 0, liquidSeconds = 0, foamSeconds = 0;  ///< a frame, mean over all [s]
+  double pressureIterations = 0, foamIterations = 0;       ///< the same [-]
+};
+
+struct TradeFigures {
+  std::array<double, kTradeFigures.size()> values{};  ///< in the units of kTradeFigures
+  TradeCost cost;
+};
+
+/// Reads what a finished run left.
+TradeFigures tradeFiguresOf(const SceneRun& run);
+
+}  // namespace spume::apps

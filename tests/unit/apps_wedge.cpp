@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "apps/wedge/variation.h"
+#include "apps/wedge/wedge_scripts.h"
+#include "tests/support/apps_program.h"
+
+namespace spume::apps {
+namespace {
+
+using coupling::Overrides;
+using Words = std::vector<std::string>;
+
+std::string complaint(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const coupling::SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Variation, SplitsAtCommasBetweenValuesAlone) {
+  EXPECT_EQ(parseVariation("liquid.cfl=1,2, 4").values, (Words{"1", "2", "4"}));
+  EXPECT_EQ(parseVariation("liquid.cfl=1,2").key, "liquid.cfl");
+  EXPECT_EQ(parseVariation("inflow.0.direction=[0,-1,0],[0.2, -1, 0]").values,
+            (Words{"[0,-1,0]", "[0.2, -1, 0]"}));
+  EXPECT_EQ(parseVariation("a.b={ keys = [[0, 1], [2, 3]] },5").values,
+            (Words{"{ keys = [[0, 1], [2, 3]] }", "5"}));
+  EXPECT_EQ(parseVariation("a.b=\"x,y\",'u,[v',z").values, (Words{"\"x,y\"", "'u,[v'", "z"}));
+  EXPECT_EQ(parseVariation("a.b=\"x\\\",y\",z").values, (Words{"\"x\\\",y\"", "z"}));
+}
+
+TEST(Variation, RefusesWhatIsNoListAndNamesIt) {
+  for (const char* text : {"liquid.cfl", "=1,2", "a.b=", "a.b=1,,2", "a.b=1,2,", "a.b=[1,2", "a.b=1]",
+                           "a.b=\"1", "a.b=[1},2", "a.b=1,1"}) {
+    const std::string said = complaint([&] { parseVariation(text); });
+    EXPECT_EQ(said.rfind(std::string("--vary ") + text + ": ", 0), 0u) << said;
+  }
+}
+
+TEST(Combinations, AreTheCrossProductTheLastKeyFastest) {
+  const auto all = combinations({parseVariation("a.b=1,2"), parseVariation("c.d=x,y,z")});
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_EQ(folderNames(all), (Words{"a.b=1__c.d=x", "a.b=1__c.d=y", "a.b=1__c.d=z", "a.b=2__c.d=x",
+                                     "a.b=2__c.d=y", "a.b=2__c.d=z"}));
+  for (const Overrides& one : all)
+    for (const coupling::Override& given : one) EXPECT_EQ(given.option, "--vary");
+  EXPECT_EQ(combinations({}).size(), 1u);
+}
+
+TEST(Combinations, RefusesAKeyTwiceAndTooMany) {
+  const Variation once = parseVariation("a.b=1,2"), again = parseVariation("a.b=3");
+  EXPECT_EQ(complaint([&] { combinations({once, again}); }).rfind("--vary a.b=3: ", 0), 0u);
+  Variation many{"c.d=...", "c.d", Words(kMostVariants / 2 + 1, "1")};
+  EXPECT_EQ(complaint([&] { combinations({once, many}); }).rfind("--vary c.d=...: ", 0), 0u);
+  many.values.resize(kMostVariants / 2);
+  EXPECT_EQ(combinations({once, many}).size(), kMostVariants);
+}
+
+TEST(FolderNames, AreSafeShortAndUnique) {
+  const auto names = folderNames({{{"a.b", "[0, -1, 0]"}},
+                                  {{"a.b", "{0, -1; 0}"}},
+                                  {{"a.b", "\"ä/ ../x\""}},
+                                  {{"a.b", "[]"}},
+                                  {{"a.b", std::string(300, 'x')}},
+                                  {{"a.b", std::string(301, 'x')}}});
+  EXPECT_EQ(names[0], "a.b=0_-1_0");
+  EXPECT_EQ(names[1], "a.b=0_-1_0__2");
+  EXPECT_EQ(names[3], "a.b=value");
+  EXPECT_NE(names[4], names[5]);
+  for (const std::string& name : names) {
+    EXPECT_LE(name.size(), kLongestName);
+    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_.+="), std::string::npos) << name;
+  }
+}
+
+TEST(ShellWord, ComesThroughAShellUnchanged) {
+  const apps::test::Scratch scratch;
+  const std::string odd = "it's $HOME; \"`x`\" \\ a  b";
+  ASSERT_EQ(std::system(("printf %s " + shellWord(odd) + " >" + (scratch / "said")).c_str()), 0);
+  EXPECT_EQ(apps::test::contentsOf(scratch / "said"), odd);
+}
+
+}  // namespace
+}  // namespace spume::apps
