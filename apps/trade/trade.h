@@ -48,7 +48,7 @@ struct Trade {
   /// The scene's own settings as if they were one run: means over the seeds.
   TradeRun mean() const;
   Noise noise(std::size_t figure) const;
-  Noise seconds() const;  ///< a frame
+  Noise seconds() const;  ///< a frame: machines, too, have their noise
   /// Difference that counts as none: the noise's band, or what nobody would see.
   double tolerance(std::size_t figure) const;
   /// Whether a run's figure may be that of the scene with another seed.

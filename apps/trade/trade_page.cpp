@@ -85,7 +85,8 @@ std::string tradePage(const Trade& trade, const std::string& plot, const std::st
   text += table(trade, false);
   text +=
       "\n![distance from the reference over time](" + plot +
-      ")\n*The figure furthest from the reference's, in widths of the noise, over the time of a frame. Every "
+      ")\n*Distance of the scene's figures from the reference's, root of their mean square in widths of the "
+      "noise, and the errors of volumes, over the time of a frame. Every "
       "curve goes through the scene's own settings.*\n\n## Terms: differences from the scene's own "
       "settings\n\n";
   return text + table(trade, true);

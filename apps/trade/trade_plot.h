@@ -6,8 +6,9 @@
 
 namespace spume::apps {
 
-/// Distance from the reference over time of a frame as an SVG file, a curve a dial. The distance is that of
-/// the figure that lies furthest away, in widths of the noise.
+/// Accuracy over time of a frame as an SVG file, a curve a dial: the distance of the scene's figures from the
+/// reference's, root of their mean square in widths of the noise; and of the liquid's dials the error of its
+/// volume, of the foam's that of the cells.
 std::string tradePlot(const Trade& trade);
 
 }  // namespace spume::apps

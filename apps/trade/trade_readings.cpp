@@ -17,13 +17,6 @@ std::string joined(const std::vector<std::string>& parts) {
   return text.empty() ? "none" : text;
 }
 
-/// Time of a frame of the quickest of the scene's own runs [s]: machines, too, have their noise.
-double quickestOwn(const Trade& trade) {
-  double least = trade.own.front().figures.cost.seconds;
-  for (const TradeRun& run : trade.own) least = std::min(least, run.figures.cost.seconds);
-  return least;
-}
-
 /// The figure a run moves furthest, in tolerances, and how far.
 std::string furthest(const Trade& trade, const TradeRun& run) {
   if (!run.failure.empty()) return run.failureWord();
@@ -46,14 +39,14 @@ std::string together(const Trade& trade) {
 }  // namespace
 
 std::string quickerSettings(const Trade& trade) {
-  const double own = trade.seconds().mean;
+  const Noise own = trade.seconds();
   std::vector<std::string> found;
   for (const TradeSweep& sweep : trade.sweeps)
     for (const TradeRun& run : sweep.runs)
       if (sweep.dial.kind != DialKind::term && trade.allWithin(run) &&
-          run.figures.cost.seconds < std::min(kQuicker * own, quickestOwn(trade)))
+          run.figures.cost.seconds < std::min(kQuicker * own.mean, own.mean - own.band))
         found.push_back(sweep.dial.title + " " + run.label +
-                        number(" (%.2f of the time)", run.figures.cost.seconds / own));
+                        number(" (%.2f of the time)", run.figures.cost.seconds / own.mean));
   return joined(found);
 }
 

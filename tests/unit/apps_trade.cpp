@@ -6,6 +6,7 @@
 
 #include "apps/trade/trade.h"
 #include "apps/trade/trade_page.h"
+#include "apps/trade/trade_plot.h"
 #include "apps/trade/trade_readings.h"
 #include "apps/trade/trade_table.h"
 #include "coupling/scene_toml.h"
@@ -133,6 +134,29 @@ TEST(Trade, TellsTermsThatChangeNothingFromThoseThatDo) {
   EXPECT_EQ(idleTerms(madeUp()), "idle's title, other's title");
   EXPECT_EQ(neededTerms(madeUp()), "vital's title off (bubbles alive +24.0 %)");
   EXPECT_EQ(quickerSettings(madeUp()), "quick's title off (0.50 of the time)");
+}
+
+TEST(Trade, ASettingIsQuickerBeyondTheNoiseOfTimesOnly) {
+  Trade trade = madeUp();
+  trade.own[0].figures.cost.seconds = 0.98, trade.own[2].figures.cost.seconds = 1.02;
+  EXPECT_EQ(quickerSettings(trade), "quick's title off (0.50 of the time)");
+  trade.own[0].figures.cost.seconds = 0.95, trade.own[2].figures.cost.seconds = 1.05;  // a band of 0.57
+  EXPECT_EQ(quickerSettings(trade), "none");
+}
+
+TEST(TradePlot, RunsOfADialAreDotsAndFailedOnesAreNot) {
+  Trade trade = madeUp();
+  const auto dots = [](const std::string& svg) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = svg.find("<circle", at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  trade.sweeps.back().runs.front().figures.values[kLiquidOff] = 1;
+  trade.own.front().figures.values[kLiquidOff] = 3;
+  const std::size_t whole = dots(tradePlot(trade));
+  EXPECT_EQ(whole, 2u * 2 + 1 * 2 + 1 * 2) << "two dials of the foam, one of the liquid and its volume";
+  trade.sweeps.back().runs.front().failure = "diverged: NaN";
+  EXPECT_EQ(dots(tradePlot(trade)), whole - 2);
 }
 
 TEST(Trade, ADivergedRunIsNeitherWithoutEffectNorQuick) {
