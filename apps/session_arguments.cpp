@@ -8,6 +8,7 @@
 #include "apps/run_session.h"
 
 namespace spume::apps {
+
 void SessionArguments::addTo(CLI::App& verb, const std::string& defaultFolder) {
   verb.add_option("-o,--output", output, "folder for caches and pictures; default " + defaultFolder)
       ->type_name("DIR");
