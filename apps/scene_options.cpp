@@ -21,14 +21,17 @@ coupling::Override splitAssignment(const std::string& text) {
 
 void SceneOptions::addTo(CLI::App& verb) {
   verb.add_option("scene", path, "scene file (TOML)")->required()->type_name("SCENE");
-  verb.add_option("--frames", frames, "frames to simulate; time.frames")->type_name("N");
   verb.add_option("--quality", quality, "draft: 0.625 times the cells along an edge, fine: 1.5 times")
       ->check(CLI::IsMember({"draft", "standard", "fine"}));
   verb.add_option("--resolution", resolution, "cells along the longest edge; domain.resolution")
       ->type_name("N");
+  addChangesTo(verb, "any key of the scene, e.g. --set coupling.entrainment.onset=0.6");
+}
+
+void SceneOptions::addChangesTo(CLI::App& verb, const std::string& keys) {
+  verb.add_option("--frames", frames, "frames to simulate; time.frames")->type_name("N");
   verb.add_option("--seed", seed, "of the random numbers; scene.seed")->type_name("N");
-  verb.add_option("--set", set,
-                  "any key of the scene, e.g. --set coupling.entrainment.onset=0.6; may be repeated")
+  verb.add_option("--set", set, keys + "; may be repeated")
       ->type_name("a.b=v")
       ->type_size(1)
       ->allow_extra_args(false);

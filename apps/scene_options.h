@@ -14,8 +14,10 @@ struct SceneOptions {
   std::string frames, resolution, seed, quality;  ///< as typed; empty: the scene's own
   std::vector<std::string> set;                   ///< "table.key=value"
 
-  /// Declares the options on a verb.
+  /// Declares the scene and the options on a verb.
   void addTo(CLI::App& verb);
+  /// Declares --frames, --seed and --set alone; `keys` says which keys may be set.
+  void addChangesTo(CLI::App& verb, const std::string& keys);
   /// The scene with everything applied, in the order --quality, --set, the named options, then `further`.
   /// Throws coupling::SceneError or coupling::FileError.
   coupling::Scene read(const coupling::Overrides& further = {}) const;

@@ -9,6 +9,7 @@
 #include "coupling/frame_blend.h"
 #include "coupling/scene_builder.h"
 #include "coupling/vdb_liquid_sampler.h"
+#include "fluid/level_set.h"
 #include "fluid/parallel.h"
 
 namespace spume::coupling {
@@ -75,7 +76,7 @@ CachedLiquid::CachedLiquid(const Scene& scene, double time)
   moveTo(time);
 }
 
-std::shared_ptr<const fluid::LiquidState> CachedLiquid::frame(int index) const {
+CachedLiquid::Frame CachedLiquid::frame(int index) const {
   const std::string& path = recording_.frames().paths.at(index);
   LiquidFrame cached = readLiquidFrame(path);
   if (cached.liquid.grid.cells != setup_.grid.cells)
@@ -93,10 +94,11 @@ void CachedLiquid::loadFramesRound(double time) {
       std::min(std::lower_bound(frames.begin(), frames.end(), time, isBefore), frames.end() - 1) -
       frames.begin());
   if (next == next_) return;
+  Frame after = frame(next);  // which may throw
   before_ = next == 0                     ? firstState(scene_, setup_.grid)
             : next == next_ + 1 && after_ ? std::move(after_)
                                           : frame(next - 1);
-  after_ = frame(next);
+  after_ = std::move(after);
   next_ = next;
 }
 
@@ -105,30 +107,39 @@ void CachedLiquid::moveTo(double time) {
   const double interval = after_->time - before_->time;
   const double share = std::clamp((time - before_->time) / interval, 0.0, 1.0);
   blendFrames({*before_, *after_, interval}, share, scene_.liquid.density, scene_.liquid.gravity, state_);
+  fluid::fillGhostLayers(state_.phi);
   const bool atFrame = std::abs(time - after_->time) < kSameTime;
   state_.drops = atFrame ? after_->drops : flown(before_->drops, time - before_->time, scene_.liquid.gravity);
   state_.time = time;
   fluid::updateSolidBoundary(setup_.grid, setup_.walls, setup_.solids, time, solids_);
 }
 
-/// Linear between the ends of the recorded steps; before the first, what it ended with.
+/// The state the recorded run began in: what the first step should have ended with, less what flowed in it.
+StepReport CachedLiquid::beginning() const {
+  const StepReport& first = recording_.steps().front();
+  StepReport start;
+  start.liquid.liquidVolume =
+      first.liquid.targetVolume - first.immersedGas - first.poured + first.drained + first.liquid.dropVolume;
+  return start;
+}
+
+/// Linear between the ends of the recorded steps.
 double CachedLiquid::recordedAt(double time, double (*value)(const StepReport&)) const {
   const std::vector<StepReport>& steps = recording_.steps();
   const auto endsBefore = [](const StepReport& step, double t) { return step.time < t; };
   const auto after = std::lower_bound(steps.begin(), steps.end(), time, endsBefore);
   if (after == steps.end()) return value(steps.back());
-  if (after == steps.begin()) return value(*after);
-  const double share = (time - (after - 1)->time) / (after->time - (after - 1)->time);
-  return std::lerp(value(*(after - 1)), value(*after), share);
+  const StepReport before = after == steps.begin() ? beginning() : *(after - 1);
+  return std::lerp(value(before), value(*after), (time - before.time) / (after->time - before.time));
 }
 
 fluid::LiquidStepReport CachedLiquid::step(double dt, const fluid::ImmersedGas& gas,
                                            const std::vector<fluid::Push>&) {
   const double start = state_.time, end = start + dt;
   moveTo(end);
-  lastStep_ = dt;
+  stepStart_ = start;
   const auto grown = [&](double (*total)(const StepReport&)) {
-    return recordedAt(end, total) - (start > 0 ? recordedAt(start, total) : 0);
+    return recordedAt(end, total) - recordedAt(start, total);
   };
   fluid::LiquidStepReport report;
   report.liquidVolume = report.targetVolume = liquidVolume();
@@ -143,7 +154,7 @@ fluid::LiquidStepReport CachedLiquid::step(double dt, const fluid::ImmersedGas& 
   return report;
 }
 
-void CachedLiquid::rollBack() { moveTo(state_.time - std::exchange(lastStep_, 0.0)); }
+void CachedLiquid::rollBack() { moveTo(stepStart_); }
 
 double CachedLiquid::stableDt(int) const {
   const std::vector<StepReport>& steps = recording_.steps();
@@ -159,7 +170,7 @@ double CachedLiquid::liquidVolume() const {
 }
 
 std::vector<Birth> CachedLiquid::recordedBirths() const {
-  const double start = state_.time - lastStep_;
+  const double start = stepStart_;
   const std::vector<RecordedBirth>& all = recording_.births();
   const auto isEarlier = [](const RecordedBirth& birth, double t) { return birth.time <= t; };
   const auto first = std::lower_bound(all.begin(), all.end(), start + kSameTime, isEarlier);

@@ -31,9 +31,12 @@ class CachedLiquid : public LiquidPart {
   std::unique_ptr<foam::LiquidSampler> sampler() const override;
 
  private:
+  using Frame = std::shared_ptr<const fluid::LiquidState>;
+
   void moveTo(double time);
   void loadFramesRound(double time);
-  std::shared_ptr<const fluid::LiquidState> frame(int index) const;
+  Frame frame(int index) const;
+  StepReport beginning() const;
   double recordedAt(double time, double (*value)(const StepReport&)) const;
 
   const Scene scene_;
@@ -42,9 +45,9 @@ class CachedLiquid : public LiquidPart {
   fluid::LiquidState state_;
   fluid::SolidBoundary solids_;
   fluid::DenseField<float> pressure_;  ///< not cached: 0
-  std::shared_ptr<const fluid::LiquidState> before_, after_;
-  int next_ = -1;        ///< which of the recording's frames is `after_`; -1: none is loaded
-  double lastStep_ = 0;  ///< [s]
+  Frame before_, after_;
+  int next_ = -1;         ///< which of the recording's frames is `after_`; -1: none is loaded
+  double stepStart_ = 0;  ///< of the last step [s]
 };
 
 }  // namespace spume::coupling

@@ -8,15 +8,16 @@ namespace {
 
 /// Radii beyond this many usual ones would make every look a wide one.
 constexpr double kWide = 4;
-/// Cells at most, so that a tiny ball in a large box does not ask for more memory than all bubbles.
-constexpr double kMostCells = 1 << 18;
+/// Cells along an edge at most, so that tiny balls in a large box do not ask for more memory than all
+/// bubbles.
+constexpr double kMostCells = 64;
 
 }  // namespace
 
 ClearanceGrid::ClearanceGrid(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, double usual)
     : lower_(lower), edge_(2 * usual) {
   const Eigen::Array3d size = (upper - lower).array().max(0);
-  edge_ = std::max(edge_, std::cbrt((size + edge_).prod() / kMostCells));
+  edge_ = std::max(edge_, size.maxCoeff() / (kMostCells - 1));
   cells_ = (size / edge_).floor().cast<int>() + 1;
   first_.assign(static_cast<std::size_t>(cells_.prod()), -1);
 }

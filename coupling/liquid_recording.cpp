@@ -14,6 +14,9 @@
 namespace spume::coupling {
 namespace {
 
+/// The one key of entrainment that may be changed: births that were recorded can be left out.
+constexpr char kEntrains[] = "coupling.entrainment.enabled";
+
 /// Where the columns of events.csv that a birth needs lie in its rows.
 struct BirthColumns {
   std::size_t time, kind, cause, x, y, z, radius;
@@ -57,12 +60,12 @@ std::vector<RecordedBirth> readBirths(const std::string& path) {
   return births;
 }
 
-/// Whether the recorded liquid would be another with another value of `key`.
+/// Whether the recorded liquid, or what it bore, would be another with another value of `key`.
 bool shapesTheLiquid(const std::string& key) {
   constexpr std::string_view kTables[] = {"domain.",      "liquid.", "still_pool.", "solid.",
                                           "liquid_body.", "inflow.", "outflow."};
   if (key == "time.fps") return true;
-  if (key.starts_with("coupling.entrainment.")) return key != "coupling.entrainment.enabled";
+  if (key.starts_with("coupling.entrainment.")) return key != kEntrains;
   const auto isOf = [&](std::string_view table) { return key.starts_with(table); };
   if (std::none_of(std::begin(kTables), std::end(kTables), isOf)) return false;
   const std::string name = key.substr(key.rfind('.') + 1);
@@ -87,8 +90,12 @@ LiquidRecording::LiquidRecording(const std::string& folder)
 
 void LiquidRecording::requireSameLiquid(const Scene& scene) const {
   std::string message;
-  for (const std::string& difference : sceneDifferences(readFile(folder_ + "/scene.toml"), writeScene(scene)))
-    if (shapesTheLiquid(difference.substr(0, difference.find(' ')))) message += " " + difference + ";";
+  for (const std::string& difference :
+       sceneDifferences(readFile(folder_ + "/scene.toml"), writeScene(scene))) {
+    const std::string key = difference.substr(0, difference.find(' '));
+    const bool asksForBirths = key == kEntrains && scene.coupling.entrainment.enabled;  // none were recorded
+    if (asksForBirths || shapesTheLiquid(key)) message += " " + difference + ";";
+  }
   if (message.empty()) return;
   message.pop_back();
   throw SceneError(folder_ +

@@ -2,6 +2,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <mutex>
 
@@ -186,7 +187,10 @@ void VdbLiquidSampler::velocity(foam::Points x, foam::Vectors out) const {
 
 void VdbLiquidSampler::gradPressure(foam::Points x, foam::Vectors out) const {
   const bool look = source_->pressureGradient && x.cols() >= kManyPoints;
-  if (look) std::call_once(source_->facesLookedAt, [&] { source_->lookAtFaces(); });
+  // Isolated: a thread that waits in here must not be given another question to this sampler meanwhile.
+  if (look)
+    std::call_once(source_->facesLookedAt,
+                   [&] { tbb::this_task_arena::isolate([&] { source_->lookAtFaces(); }); });
   forEachPoint(x.cols(), [&](Eigen::Index i) {
     out.col(i) = source_->gradPressureAt(Eigen::Vector3d(x.col(i)), look);
   });

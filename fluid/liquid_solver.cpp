@@ -54,7 +54,8 @@ LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std
   try {
     double longest = dt;  // a sub-step may be cut short; the next ones grow again by no more than twice
     for (double remaining = dt; remaining > 0;) {
-      const int left = std::max(in.subStepsFor(remaining), static_cast<int>(std::ceil(remaining / longest)));
+      const int left =
+          std::max(in.subStepsFor(remaining), static_cast<int>(std::ceil(remaining / longest - kRoundOff)));
       const double asked = remaining / left, taken = in.subStep(asked, gas, report, clock);
       if (taken < asked)
         remaining -= taken;

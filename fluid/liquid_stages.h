@@ -30,6 +30,9 @@ namespace spume::fluid {
 /// The velocity must reach beyond the fastest sub-step and the stencil of its interpolation [cells].
 inline constexpr int kStencilReach = 3;
 
+/// Steps that fill an interval up to round-off must not be given one more.
+inline constexpr double kRoundOff = 1e-9;
+
 /// Everything a solver holds, and the stages of its sub-step in the order subStep() calls them.
 struct LiquidStages {
   LiquidStages(FluidParams p, LiquidSetup s);

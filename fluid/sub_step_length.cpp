@@ -25,9 +25,6 @@ static_assert(kBeyondSurface < kStencilReach - 1);
 /// tried then. With 3e-5 a dam break takes more sub-steps and keeps its energy no better.
 constexpr double kMostExcess = 1e-4;
 
-/// Steps that fill an interval up to round-off must not be given one more.
-constexpr double kRoundOff = 1e-9;
-
 }  // namespace
 
 /// Speed [m/s] that a sub-step is measured by: the largest of the liquid up to its surface. Faster ones
@@ -68,8 +65,8 @@ int LiquidStages::subStepsFor(double dt) const {
 }
 
 /// Whether the surface has run so far into something that the sub-step should be half as long. It may be if
-/// that is still more than a cell, if the velocity, half a former sub-step ahead, then leads by no more than
-/// this one, and if solids are where they would be.
+/// the whole one is more than a cell, if the velocity is ahead of the surface by no more than the half one,
+/// and if solids are where they would be.
 bool LiquidStages::crowdsTooMuch(double dt) {
   if (dt * maxSpeed < state.grid.dx || dt < 2 * (1 - kRoundOff) * state.lead || solidsMove()) return false;
   return crowding.excess() * state.grid.cellVolume() > kMostExcess * bodies.volume;

@@ -128,17 +128,17 @@ void BlockPcg::advanceClusters(const CoarseCorrection& coarse, double length) {
   clusters_.slope = sumOfProducts(clusters_.pull, clusters_.answer);
 }
 
-/// What couplings with later rows of its block bring row `k`.
+/// What couplings with rows swept later bring row `k`.
 inline Quad BlockPcg::coupledBack(const SweptSystem& a, std::size_t k) const {
   return coupled(a.ahead, a.row[k].ahead, a.row[k + 1].ahead, known_.data());
 }
 
-/// What couplings with earlier rows of its block bring it.
+/// What couplings with rows swept earlier bring it.
 inline Quad BlockPcg::coupledWithin(const SweptSystem& a, std::size_t k) const {
   return coupled(a.known, a.row[k].behind, a.row[k].beyond, known_.data());
 }
 
-/// What these and couplings with other blocks bring it.
+/// What these and couplings with rows swept at the same time bring it.
 inline Quad BlockPcg::coupledForth(const SweptSystem& a, std::size_t k) const {
   return coupled(a.known, a.row[k].behind, a.row[k + 1].behind, known_.data());
 }

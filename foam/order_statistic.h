@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,7 @@ namespace spume::foam {
 /// wanted one's are looked at again. O(n).
 inline double orderStatistic(const std::vector<double>& values, std::size_t k) {
   constexpr int kBits = 16;  // sign, exponent and four of the mantissa: a sixteenth of an octave
+  assert(k < values.size());
   const auto binOf = [](double value) { return std::bit_cast<std::uint64_t>(value + 0.0) >> (64 - kBits); };
   using Counts = std::vector<std::uint32_t>;
   tbb::enumerable_thread_specific<Counts> counts(std::size_t{1} << kBits);

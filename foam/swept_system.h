@@ -19,9 +19,9 @@ namespace spume::foam {
 /// half the memory.
 ///
 /// Blocks are consecutive rows, and what couples two of them an incomplete factor would not know. So the rows
-/// at their borders, a tenth of all, are taken out and swept in a round of their own when the inner rows of
-/// every block are done, as the separators of nested dissection [George 1973]. Only couplings between blocks
-/// of border rows are lost to the factor: 0.4 instead of 10 of 100.
+/// at their borders are taken out and swept in a round of their own when the inner rows of every block are
+/// done, as the separators of nested dissection [George 1973]. Only couplings between blocks of border rows
+/// are lost to the factor.
 ///
 /// Blocks are swept side by side, kAbreast of them at a time: a row waits for the one before it, and others
 /// fill the wait. Rows are numbered anew in the order in which they are swept, so that whatever a sweep reads

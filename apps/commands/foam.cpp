@@ -11,25 +11,33 @@
 namespace spume::apps {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct FoamOptions {
-  std::string folder, frames, seed;
-  std::vector<std::string> set;
+  std::string folder;
+  SceneOptions scene;
   SessionArguments session;
 };
 
-/// The scene of a run with its liquid read from that run, over the frames that are there.
-coupling::Scene sceneOf(const FoamOptions& options) {
-  SceneOptions scene;
-  scene.path = options.folder + "/scene.toml";
-  scene.seed = options.seed;
-  scene.frames = options.frames;
-  scene.set = options.set;
-  scene.set.push_back("liquid_cache.run=" +
-                      std::filesystem::absolute(options.folder).lexically_normal().string());
-  coupling::Scene foam = scene.read();
-  const int last = coupling::listCache(options.folder + "/liquid", "liquid", "vdb").lastFrame();
-  if (options.frames.empty() && last > 0) foam.time.frames = std::min(foam.time.frames, last);
-  return foam;
+/// The folder with its own name last, however it was given ("run/", ".").
+fs::path namedFolder(const std::string& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// The scene of a run with its liquid read from that run; over the frames that are there, if nobody says
+/// otherwise.
+coupling::Scene sceneOf(SceneOptions options, const fs::path& folder) {
+  constexpr std::string_view kFrames = "time.frames=";
+  const bool asksForFrames = !options.frames.empty() ||
+                             std::any_of(options.set.begin(), options.set.end(),
+                                         [&](const std::string& set) { return set.starts_with(kFrames); });
+  options.path = (folder / "scene.toml").string();
+  options.set.push_back("liquid_cache.run=" + folder.string());
+  coupling::Scene scene = options.read();
+  const int last = coupling::listCache((folder / "liquid").string(), "liquid", "vdb").lastFrame();
+  if (!asksForFrames && last > 0) scene.time.frames = std::min(scene.time.frames, last);
+  return scene;
 }
 
 /// Probes of a pressure have nothing to read: caches hold none.
@@ -42,15 +50,14 @@ void dropPressureProbes(coupling::Scene& scene) {
 }
 
 int foam(const FoamOptions& options) {
-  coupling::Scene scene = sceneOf(options);
+  const fs::path folder = namedFolder(options.folder);
+  coupling::Scene scene = sceneOf(options.scene, folder);
   dropPressureProbes(scene);
-  std::string folder = options.folder;
-  while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
-  const std::string target = options.session.output.empty() ? folder + "_foam" : options.session.output;
-  std::error_code ignored;
-  if (std::filesystem::equivalent(target, folder, ignored))
+  const std::string target =
+      options.session.output.empty() ? folder.string() + "_foam" : options.session.output;
+  if (namedFolder(target) == folder)
     throw coupling::SceneError("-o " + target + ": is the folder whose liquid is read; name another");
-  return options.session.run(std::move(scene), folder + "_foam");
+  return options.session.run(std::move(scene), target);
 }
 
 }  // namespace
@@ -59,17 +66,13 @@ void addFoam(CLI::App& program, Action& action) {
   CLI::App* verb = program.add_subcommand(
       "foam", "Computes the foam of a run again on its cached liquid, which takes the liquid's time off.");
   const auto options = std::make_shared<FoamOptions>();
-  verb->add_option("folder", options->folder, "folder of a finished run")->required()->type_name("DIR");
-  verb->add_option("--frames", options->frames, "frames to simulate; default: as many as are cached")
-      ->type_name("N");
-  verb->add_option("--seed", options->seed, "of the random numbers; scene.seed")->type_name("N");
-  verb->add_option(
-          "--set", options->set,
-          "any key about bubbles, e.g. --set foam.wetness=0.6; those of the liquid, of solids and of "
-          "what is entrained stay as they were; may be repeated")
-      ->type_name("a.b=v")
-      ->type_size(1)
-      ->allow_extra_args(false);
+  verb->add_option("folder", options->folder, "folder of a run; its frames so far are used")
+      ->required()
+      ->type_name("DIR");
+  options->scene.addChangesTo(
+      *verb,
+      "any key about bubbles, e.g. --set foam.wetness=0.6; those of the liquid, of solids and of what is "
+      "entrained stay as they were");
   options->session.addTo(*verb, "<DIR>_foam");
   verb->footer(
       "Between cached frames the liquid is blended along its velocity: cache every frame (output.every = 1)\n"

@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <vector>
 
 #include "coupling/bubble_cache.h"
 #include "coupling/cache_listing.h"
+#include "coupling/cached_liquid.h"
 #include "coupling/liquid_recording.h"
+#include "coupling/scene_toml.h"
 #include "tests/support/apps_program.h"
 
 namespace spume::apps::test {
@@ -27,6 +30,9 @@ const std::string kPour =
     "[[probe]]\nname = \"deep\"\nkind = \"pressure\"\nposition = [0.03, 0.01, 0.03]\n";
 
 constexpr int kFrames = 9;
+/// Share of the bubbles that may burst earlier or later because they rise another way: births and sources,
+/// nine in ten of which live on at the end, are the same.
+constexpr double kOtherPaths = 0.1;
 constexpr double kClosedTwice =
     0.01;  // of the volume: a surface closed at the walls moves when it is closed again
 
@@ -71,7 +77,8 @@ TEST_F(FoamAgain, BearsTheSameBubblesInTheSameLiquid) {
   }
   const foam::BubbleStore there = lastBubbles(run()), here = lastBubbles(at("same"));
   ASSERT_GT(there.size(), 50u);
-  EXPECT_NEAR(static_cast<double>(here.size()), static_cast<double>(there.size()), 0.1 * there.size());
+  EXPECT_NEAR(static_cast<double>(here.size()), static_cast<double>(there.size()),
+              kOtherPaths * there.size());
   double heightThere = 0, heightHere = 0;
   for (const auto& x : there.position) heightThere += x.y() / there.size();
   for (const auto& x : here.position) heightHere += x.y() / here.size();
@@ -109,6 +116,68 @@ TEST_F(FoamAgain, RefusesAnotherLiquid) {
   expectRefused(runSpume("foam " + run() + " -o " + run() + "/"), 2, "is the folder whose liquid is read");
   expectRefused(runSpume("foam " + at("nothing")), 4, "nothing/scene.toml");
   EXPECT_FALSE(std::filesystem::exists(at("refused") + "/scene.toml"));
+}
+
+TEST_F(FoamAgain, IsNamedAfterTheRunHoweverThatIsGiven) {
+  std::filesystem::create_directory_symlink(run(), at("a run"));
+  ASSERT_EQ(runSpume("foam '" + at("a run") + "/.' --frames 1").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(at("a run_foam") + "/run.json"));
+  expectRefused(runSpume("foam " + run() + " -o " + at("longer") + " --set time.frames=12"), 2,
+                "up to frame 9");
+}
+
+TEST_F(FoamAgain, KnowsOfNoBirthsThatWereNotRecorded) {
+  const std::string scene = scratch_->write("calm.toml", kPour);
+  ASSERT_EQ(
+      runSpume("run " + scene + " --frames 1 --set coupling.entrainment.enabled=false -o " + at("calm")).code,
+      0);
+  expectRefused(runSpume("foam " + at("calm") + " --set coupling.entrainment.enabled=true"), 2,
+                "coupling.entrainment.enabled = false there, true here");
+}
+
+TEST_F(FoamAgain, GoesOverFramesThatAreNotCached) {
+  const std::string scene = scratch_->write("sparse.toml", kPour);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 9 --set output.every=3 -o " + at("sparse")).code, 0);
+  ASSERT_EQ(runSpume("foam " + at("sparse") + " --set output.every=9").code, 0);
+  const auto there = lastBubbles(at("sparse")), here = lastBubbles(at("sparse_foam"));
+  EXPECT_NEAR(static_cast<double>(here.size()), static_cast<double>(there.size()),
+              kOtherPaths * there.size());
+}
+
+/// The recorded liquid itself.
+class RecordedLiquid : public FoamAgain {
+ protected:
+  static coupling::CachedLiquid liquid() {
+    coupling::Scene scene =
+        coupling::readScene(run() + "/scene.toml", {{"liquid_cache.run", run()}, {"time.frames", "9"}});
+    scene.probes.clear();
+    return coupling::CachedLiquid(scene);
+  }
+};
+
+TEST_F(RecordedLiquid, BeginsWithThePoolAlone) {
+  const double pool = 0.06 * 0.06 * 0.02, cell = std::pow(0.06 / 16, 3);
+  EXPECT_NEAR(liquid().liquidVolume(), pool, 2 * cell) << "not with what the first step poured";
+}
+
+TEST_F(RecordedLiquid, TakesAStepBackToTheBit) {
+  coupling::CachedLiquid taken = liquid(), straight = liquid();
+  const double dt = 1.0 / 30;
+  taken.step(5 * dt, {}, {}), straight.step(5 * dt, {}, {});
+  const std::size_t before = taken.recordedBirths().size();
+  std::size_t born = before;
+  taken.step(dt, {}, {});
+  const std::size_t whole = taken.recordedBirths().size();
+  taken.rollBack();
+  for (int half = 0; half < 2; ++half) {
+    taken.step(dt / 2, {}, {});
+    born += taken.recordedBirths().size();
+  }
+  straight.step(dt, {}, {});
+  EXPECT_EQ(born, before + whole) << "births of a halved step are born once";
+  EXPECT_GT(whole, 0u);
+  for (int i = 0; i < 16; ++i)
+    for (int j = 0; j < 16; ++j) EXPECT_EQ(taken.state().phi(i, j, 8), straight.state().phi(i, j, 8));
 }
 
 TEST_F(FoamAgain, NeedsCachedLiquid) {
