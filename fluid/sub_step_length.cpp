@@ -22,8 +22,9 @@ constexpr double kBeyondSurface = 1;
 static_assert(kBeyondSurface < kStencilReach - 1);
 
 /// Largest share of the liquid that a sub-step may crowd beyond what the surface can take; half of it is
-/// tried then. With 3e-5 a dam break takes more sub-steps and keeps its energy no better.
-constexpr double kMostExcess = 1e-4;
+/// tried then. With 1e-4 a closed dam break of 64^3 keeps its volume to 0.16 instead of 0.28 %, its energy no
+/// better, and a jet into a pool takes a quarter more sub-steps.
+constexpr double kMostExcess = 3e-4;
 
 }  // namespace
 
