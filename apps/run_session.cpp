@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <iostream>
 #include <memory>
 
 #include "apps/duration.h"
@@ -11,7 +12,6 @@
 #include "apps/log.h"
 #include "apps/preview/movie.h"
 #include "apps/progress.h"
-#include "apps/stop_request.h"
 #include "coupling/checkpoint.h"
 #include "coupling/folder_lock.h"
 #include "coupling/kept_steps.h"
@@ -177,8 +177,8 @@ ExitCode Session::run() {
   } catch (const Stopped& stopped) {
     writeCheckpoint();
     writeSummary("stopped");
-    log_->say(std::string(stopped.what()) + " in frame " + std::to_string(simulation_->frame() + 1) +
-              "; the same command goes on from the checkpoint");
+    log_->say(std::string(stopped.what()) + " in frame " + std::to_string(simulation_->frame() + 1) + "; " +
+              wayOn(options_.restart) + " from the checkpoint");
     return stopped.code();
   } catch (const coupling::FileError& error) {
     log_->write(error.what());
@@ -197,14 +197,24 @@ ExitCode Session::run() {
 
 ExitCode runSession(const SessionOptions& options) { return Session(options).run(); }
 
+int allowedThreads() {
+  using tbb::global_control;
+  return static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+}
+
 void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart) {
   SessionOptions session;
   session.scene = scene;
   session.folder = folder;
   session.restart = restart;
-  session.threads =
-      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  session.threads = allowedThreads();
   if (const ExitCode code = runSession(session); code != kDone) throw Stopped(code);
+}
+
+int tellStopped(const Stopped& stopped, bool restart) {
+  std::cerr << "spume: " << stopped.what() << "; " << wayOn(restart)
+            << (restart ? "; runs not yet begun anew stay as they were" : "") << std::endl;
+  return stopped.code();
 }
 
 }  // namespace spume::apps

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/exit_code.h"
+#include "apps/stop_request.h"
 #include "coupling/scene.h"
 
 namespace spume::apps {
@@ -22,7 +23,13 @@ struct SessionOptions {
 /// NumericalFailure.
 ExitCode runSession(const SessionOptions& options);
 
-/// The same on all cores for a verb that runs many scenes. Throws Stopped if it was interrupted.
+/// Threads that work if nothing else is asked for: one per core, or as many as a tbb::global_control leaves.
+int allowedThreads();
+
+/// The same on all of them for a verb that runs many scenes. Throws Stopped if it was interrupted.
 void runToTheEnd(const coupling::Scene& scene, const std::string& folder, bool restart);
+
+/// Tells a person that such a verb was stopped and how to go on. Returns the exit code.
+int tellStopped(const Stopped& stopped, bool restart);
 
 }  // namespace spume::apps

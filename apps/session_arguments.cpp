@@ -27,10 +27,7 @@ int SessionArguments::run(coupling::Scene scene, const std::string& defaultFolde
   if (noPreview) session.scene.output.preview = false;
   session.folder = output.empty() ? defaultFolder : output;
   session.restart = restart;
-  session.threads =
-      threads > 0
-          ? threads
-          : static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  session.threads = threads > 0 ? threads : allowedThreads();
   if (!maxWall.empty()) session.maxWall = parseDuration(maxWall);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, session.threads);
   return runSession(session);

@@ -30,6 +30,10 @@ const char* Stopped::what() const noexcept {
   }
 }
 
+std::string wayOn(bool restart) {
+  return restart ? "the same command without --restart goes on" : "the same command goes on";
+}
+
 StopRequest::StopRequest(std::optional<double> wallSeconds) {
   using Clock = std::chrono::steady_clock;
   if (wallSeconds)

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <string>
 
 #include "apps/exit_code.h"
 
@@ -18,6 +19,9 @@ class Stopped : public std::exception {
  private:
   ExitCode code_;
 };
+
+/// How a person goes on with what was stopped: "the same command goes on", `restart` without that flag.
+std::string wayOn(bool restart);
 
 /// Notices SIGINT, SIGTERM and the end of the allowed wall time. The first signal asks for a clean stop, a
 /// second one ends the program at once. One object at a time; the destructor restores the signals' earlier

@@ -105,8 +105,7 @@ int reproduce(const ReproduceOptions& options) {
     for (const Selection& selection : selections)
       options.list ? list(*selection.table) : make(selection, options);
   } catch (const Stopped& stopped) {
-    std::cerr << "spume: " << stopped.what() << "; the same command goes on" << std::endl;
-    return stopped.code();
+    return tellStopped(stopped, options.restart);
   }
   if (!options.list) writeReport(options.output);
   return kDone;

@@ -1,5 +1,4 @@
-#include <tbb/global_control.h>
-
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "apps/trade/trade_page.h"
 #include "apps/trade/trade_plot.h"
 #include "apps/trade/trade_table.h"
+#include "apps/wedge/shell_word.h"
 #include "coupling/atomic_file.h"
 
 namespace spume::apps {
@@ -35,13 +35,14 @@ void useDefaultScene(SceneOptions& scene) {
 /// The command that makes the same page.
 std::string commandOf(const TradeOptions& options) {
   const SceneOptions& scene = options.scene;
-  std::string text = "spume trade " + scene.path;
+  std::string text = "spume trade " + shellWord(scene.path);
   for (const auto& [option, value] : {std::pair{" --quality ", scene.quality},
                                       {" --resolution ", scene.resolution},
                                       {" --frames ", scene.frames},
                                       {" --seed ", scene.seed}})
     if (!value.empty()) text += option + value;
-  for (const std::string& assignment : scene.set) text += " --set " + assignment;
+  for (const std::string& assignment : scene.set) text += " --set " + shellWord(assignment);
+  text += " --seeds " + std::to_string(options.seeds);
   std::string names;
   for (const std::string& name : options.dials) names.append(names.empty() ? "" : ",").append(name);
   return names.empty() ? text : text + " --dials " + names;
@@ -61,7 +62,9 @@ void write(const Trade& trade, const TradeOptions& options) {
   const std::string name = "trade_" + trade.scene.name, stem = options.output + "/" + name;
   coupling::replaceFile(stem + ".csv", tradeTable(trade).csv());
   coupling::replaceFile(stem + ".svg", tradePlot(trade));
-  coupling::replaceFile(stem + ".md", tradePage(trade, name + ".svg", commandOf(options)));
+  const std::string page = stem + ".md";
+  const std::string reading = std::filesystem::exists(page) ? readingOf(coupling::readFile(page)) : "";
+  coupling::replaceFile(page, tradePage(trade, name + ".svg", commandOf(options), reading));
   std::cout << stem << ".md, .csv and .svg are written" << std::endl;
 }
 
@@ -80,8 +83,7 @@ int trade(TradeOptions options) {
   try {
     write(runTrade(plan, context), options);
   } catch (const Stopped& stopped) {
-    std::cerr << "spume: " << stopped.what() << "; the same command goes on" << std::endl;
-    return stopped.code();
+    return tellStopped(stopped, options.restart);
   }
   return kDone;
 }

@@ -8,9 +8,8 @@
 #include "apps/run_session.h"
 #include "apps/scene_options.h"
 #include "apps/stop_request.h"
+#include "apps/wedge/shell_word.h"
 #include "apps/wedge/wedge_folder.h"
-#include "apps/wedge/wedge_summary.h"
-#include "coupling/atomic_file.h"
 
 namespace spume::apps {
 namespace {
@@ -51,16 +50,18 @@ void printPlan(const Wedge& wedge, const WedgeOptions& options) {
   std::printf("%zu variants: about %s on two cores in all, %.2g GB on disk, %.2g GB of memory each\n",
               wedge.variants.size(), formatDuration(cost.seconds).c_str(), cost.diskBytes / kGigabyte,
               cost.memoryBytes / kGigabyte);
-  if (!options.run)
-    std::printf("sh %s/commands.sh runs them%s\n", options.output.c_str(),
-                options.slurm ? (", sbatch " + options.output + "/wedge.sbatch queues them").c_str() : "");
   std::fflush(stdout);
+  if (!options.run)
+    std::cout << "sh " << shellWord(options.output + "/commands.sh") << " runs them"
+              << (options.slurm ? ", sbatch " + shellWord(options.output + "/wedge.sbatch") + " queues them"
+                                : "")
+              << std::endl;
 }
 
 /// Writes summary.csv and says what it holds.
 int summarizeAndPrint(const std::string& folder) {
   const WedgeSummary summary = summarize(folder);
-  coupling::replaceFile(folder + "/summary.csv", summary.csv());
+  writeSummary(summary, folder);
   std::cout << summary.text() << folder << "/summary.csv: " << summary.variants.size() << " variants"
             << std::endl;
   return kDone;

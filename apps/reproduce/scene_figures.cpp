@@ -115,12 +115,20 @@ double totalOf(const std::vector<double>& column) {
   return std::accumulate(column.begin(), column.end(), 0.0);
 }
 
+double meanOf(const std::vector<double>& column) {
+  return column.empty() ? 0 : totalOf(column) / static_cast<double>(column.size());
+}
+
+std::size_t lateBegin(std::size_t size) {
+  const auto late = static_cast<std::size_t>(kLatePart * static_cast<double>(size)) + 1;
+  return size - std::min(late, size);
+}
+
 double lateMean(const std::vector<double>& column) {
-  const auto late = static_cast<std::size_t>(kLatePart * static_cast<double>(column.size())) + 1;
-  const std::size_t count = std::min(late, column.size());
+  const std::size_t begin = lateBegin(column.size());
   double sum = 0;
-  for (std::size_t n = column.size() - count; n < column.size(); ++n) sum += column[n];
-  return sum / static_cast<double>(count);
+  for (std::size_t n = begin; n < column.size(); ++n) sum += column[n];
+  return sum / static_cast<double>(column.size() - begin);
 }
 
 double meanWhenFull(const SceneRun& run, const std::vector<double>& column) {

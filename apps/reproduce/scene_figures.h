@@ -27,15 +27,19 @@ ResultRow rowOf(const SceneRun& run, const std::string& quantity);
 /// The same with the paper's figure beside it.
 ResultRow rowOf(const SceneRun& run, const std::string& quantity, const std::string& paper);
 
-/// Most of a column, its mean and its least over the full frames, and the sum of all.
+/// Most of a column, its mean and its least over the full frames, and the sum and the mean of all. Most, sum
+/// and mean of an empty column are 0.
 double mostOf(const std::vector<double>& column);
 double meanWhenFull(const SceneRun& run, const std::vector<double>& column);
 double leastWhenFull(const SceneRun& run, const std::vector<double>& column);
 double totalOf(const std::vector<double>& column);
+double meanOf(const std::vector<double>& column);
 
 /// Share of a run, at its end, that figures of its later state are averaged over: a pour, while it lasts,
 /// tears clusters up.
 inline constexpr double kLatePart = 1.0 / 3;
+/// Where that part of `size` entries begins, from 0: it holds the share rounded down and one more.
+std::size_t lateBegin(std::size_t size);
 /// Mean of a column over that part; NaN of nothing.
 double lateMean(const std::vector<double>& column);
 

@@ -56,11 +56,22 @@ void foldSteps(const std::string& folder, FrameCurves& curves) {
   }
 }
 
-/// The figures need the PLY of bubbles alone.
-coupling::Scene withoutCaches(coupling::Scene scene) {
+/// The figures need the PLY of bubbles alone, and that whatever the scene says.
+coupling::Scene withBubblesAlone(coupling::Scene scene) {
   coupling::OutputSpec& output = scene.output;
   output.preview = output.liquid = output.bubblesVdb = output.dropsVdb = output.dropsPly = false;
+  output.bubblesPly = true;
   return scene;
+}
+
+/// A folder that was run further than asked has the checkpoint of a later frame: no shorter run is in it.
+void requireAskedLength(const SceneRun& run) {
+  const int asked = run.scene.time.frames;
+  if (run.frames.size() <= static_cast<std::size_t>(asked)) return;
+  const std::string held = std::to_string(run.frames.size());
+  throw coupling::SceneError(run.folder + ": holds a run of " + held + " frames, longer than the " +
+                             std::to_string(asked) + " asked for; ask for --frames " + held +
+                             ", name another folder with --runs, or start anew with --restart");
 }
 
 }  // namespace
@@ -106,10 +117,11 @@ SceneRun runScene(const StudyContext& context, const std::string& name, const st
 SceneRun runScene(const StudyContext& context, const coupling::Scene& scene, const std::string& variant) {
   SceneRun run;
   run.name = variant;
-  run.scene = withoutCaches(scene);
+  run.scene = withBubblesAlone(scene);
   run.folder = context.runs + "/" + variant;
   context.runScene(run.scene, run.folder);
   run.frames = readFrameCurves(run.folder);
+  requireAskedLength(run);
   const std::string checkpoints = coupling::RunFolder(run.folder).checkpoints();
   auto loaded = coupling::readNewestCheckpoint(checkpoints, run.scene);
   if (!loaded) throw coupling::FileError(checkpoints + ": holds no checkpoint");

@@ -48,7 +48,8 @@ struct SceneRun {
 };
 
 /// Runs a scene, or goes on with it, in the folder `variant` of the runs, and reads what it left. The run
-/// writes no caches but the PLY of bubbles. Throws what the run throws, and SceneError or FileError.
+/// writes no caches but the PLY of bubbles. Throws what the run throws, and SceneError or FileError;
+/// SceneError, too, where the folder holds a longer run than asked for.
 SceneRun runScene(const StudyContext& context, const coupling::Scene& scene, const std::string& variant);
 
 /// The same of `name`.toml in the folder of the scenes, as long as the context says.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "coupling/scene_builder.h"
 #include "fluid/errors.h"
 #include "foam/errors.h"
 
@@ -30,17 +29,8 @@ class Runner {
 
   const coupling::Scene& own() const { return own_; }
 
-  TradeRun run(const std::string& label, const std::string& folder,
-               const coupling::Overrides& overrides) const {
+  TradeRun run(const std::string& label, const std::string& folder, const coupling::Scene& scene) const {
     TradeRun result{label, {}};
-    coupling::Scene scene;
-    try {
-      scene = plan_.read(overrides);
-      coupling::checkObjects(scene);
-    } catch (const coupling::SceneError& refusal) {  // a nozzle, say, too thin for coarser cells
-      result.failure = std::string("refused: ") + refusal.what();
-      return result;
-    }
     try {
       result.figures = tradeFiguresOf(runScene(context_, scene, folder));
     } catch (const fluid::NumericalFailure& failure) {
@@ -49,6 +39,17 @@ class Runner {
       result.failure = std::string("diverged: ") + failure.what();
     }
     return result;
+  }
+
+  /// The same with a setting that the scene may not allow: a nozzle, say, too thin for coarser cells.
+  TradeRun run(const Dial& dial, const DialSetting& setting) const {
+    coupling::Scene scene;
+    try {
+      scene = plan_.read(setting.overrides);
+    } catch (const coupling::SceneError& refusal) {
+      return {setting.label, {}, std::string("refused: ") + refusal.what()};
+    }
+    return run(setting.label, folderNameOf(dial, setting), scene);
   }
 
   /// Whether the overrides say what the scene says.
@@ -64,8 +65,7 @@ class Runner {
   TradeSweep sweep(const Dial& dial) const {
     TradeSweep sweep{dial, {}};
     for (const DialSetting& setting : dial.settings)
-      if (!changesNothing(setting.overrides))
-        sweep.runs.push_back(run(setting.label, folderNameOf(dial, setting), setting.overrides));
+      if (!changesNothing(setting.overrides)) sweep.runs.push_back(run(dial, setting));
     return sweep;
   }
 
@@ -82,14 +82,10 @@ void requireFinished(const TradeRun& run) {
 
 /// What may go may not go together: a last run finds out.
 void addTogether(const Runner& runner, Trade& trade) {
-  const std::vector<std::string> idle = termsWithoutEffect(trade);
-  if (idle.size() < 2) return;
-  Dial dial{kAllTogether, "the terms without effect, all at once", DialKind::term, {{"off", {}}}};
-  for (const TradeSweep& sweep : trade.sweeps)
-    if (std::find(idle.begin(), idle.end(), sweep.dial.name) != idle.end())
-      for (const coupling::Override& one : sweep.dial.settings.front().overrides)
-        dial.settings.front().overrides.push_back(one);
-  trade.sweeps.push_back(runner.sweep(dial));
+  if (termsWithoutEffect(trade).size() < 2) return;
+  const DialSetting off{"off", allWithoutEffect(trade)};
+  trade.sweeps.push_back(
+      runner.sweep({kAllTogether, "the terms without effect, all at once", DialKind::term, {off}}));
 }
 
 }  // namespace
@@ -135,6 +131,10 @@ double Trade::tolerance(std::size_t figure) const {
   return std::max({scatter.band, kind.share * std::abs(scatter.mean), kind.amount});
 }
 
+double Trade::inTolerances(double difference, std::size_t figure) const {
+  return difference == 0 ? 0 : difference / tolerance(figure);
+}
+
 bool Trade::within(const TradeRun& run, std::size_t figure) const {
   return std::abs(run.figures.values[figure] - noise(figure).mean) <= tolerance(figure);
 }
@@ -149,12 +149,13 @@ Trade runTrade(const TradePlan& plan, const StudyContext& context) {
   const Runner runner(plan, context);
   Trade trade{runner.own(), {}, {}, {}};
   const std::vector<Dial> all = dialsOf(trade.scene), chosen = selectDials(all, plan.dials);
+  const coupling::Scene finest = plan.read(finestOf(all));  // what it refuses, it does before anything runs
   for (int n = 0; n < plan.seeds; ++n) {
     const std::string seed = std::to_string(trade.scene.seed + static_cast<std::uint64_t>(n));
-    trade.own.push_back(runner.run("seed " + seed, "seed=" + seed, {{"scene.seed", seed}}));
+    trade.own.push_back(runner.run("seed " + seed, "seed=" + seed, plan.read({{"scene.seed", seed}})));
     requireFinished(trade.own.back());
   }
-  trade.reference = runner.run("reference", "reference", finestOf(all));
+  trade.reference = runner.run("reference", "reference", finest);
   requireFinished(trade.reference);
   for (const Dial& dial : chosen) trade.sweeps.push_back(runner.sweep(dial));
   addTogether(runner, trade);
@@ -171,6 +172,18 @@ std::vector<std::string> termsWithoutEffect(const Trade& trade) {
       names.push_back(sweep.dial.name);
   }
   return names;
+}
+
+coupling::Overrides allWithoutEffect(const Trade& trade) {
+  const std::vector<std::string> idle = termsWithoutEffect(trade);
+  coupling::Overrides all;
+  for (const TradeSweep& sweep : trade.sweeps) {
+    if (std::find(idle.begin(), idle.end(), sweep.dial.name) == idle.end()) continue;
+    for (const coupling::Override& one : sweep.dial.settings.front().overrides)
+      if (std::none_of(all.begin(), all.end(), [&](const auto& other) { return other.key == one.key; }))
+        all.push_back(one);
+  }
+  return all;
 }
 
 }  // namespace spume::apps

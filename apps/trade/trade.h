@@ -48,9 +48,11 @@ struct Trade {
   /// The scene's own settings as if they were one run: means over the seeds.
   TradeRun mean() const;
   Noise noise(std::size_t figure) const;
-  Noise seconds() const;  ///< a frame: machines, too, have their noise
+  Noise seconds() const;  ///< a frame: times, too, have their noise
   /// Difference that counts as none: the noise's band, or what nobody would see.
   double tolerance(std::size_t figure) const;
+  /// A difference in such widths; 0 of none, also where the width is 0 [-].
+  double inTolerances(double difference, std::size_t figure) const;
   /// Whether a run's figure may be that of the scene with another seed.
   bool within(const TradeRun& run, std::size_t figure) const;
   bool allWithin(const TradeRun& run) const;
@@ -67,11 +69,15 @@ struct TradePlan {
 /// Runs the scene with several seeds, the reference, and every dial and term by itself; then, where several
 /// terms changed nothing beyond the noise, without all of these at once. A run that diverges is noted, but
 /// for those of the scene itself and the reference: throws std::runtime_error, what else the runs throw, and
-/// SceneError.
+/// SceneError; that of a reference the scene does not allow before anything runs.
 Trade runTrade(const TradePlan& plan, const StudyContext& context);
 
 /// Names of the terms that change no figure beyond the noise when they are switched.
 std::vector<std::string> termsWithoutEffect(const Trade& trade);
+
+/// What switches all of them at once. Where two set the same key, the first has it, as it is the wider one:
+/// without drag it does not matter whose law it followed.
+coupling::Overrides allWithoutEffect(const Trade& trade);
 
 /// Name of the sweep in which all of them are switched at once.
 inline constexpr char kAllTogether[] = "together";

@@ -88,10 +88,10 @@ Dial volumesDial() {
 
 std::vector<Dial> dialsOf(const Scene& scene) {
   std::vector<Dial> dials;
-  const bool flows = !scene.stillPool.enabled;
-  if (flows) dials.push_back(resolutionDial(scene));
+  const bool solved = scene.solvesLiquid();
+  if (solved) dials.push_back(resolutionDial(scene));
   for (const KeyDial& turned : keyDials())
-    if (flows || turned.kind != DialKind::liquid) dials.push_back(fromKey(turned));
+    if (solved || turned.kind != DialKind::liquid) dials.push_back(fromKey(turned));
   dials.push_back(stepDial(scene));
   dials.push_back(volumesDial());
   for (Dial& term : termsOf(scene)) dials.push_back(std::move(term));

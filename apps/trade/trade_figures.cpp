@@ -38,10 +38,20 @@ struct CachedColumns {
   std::vector<double> mean, head, clustered;  ///< [mm], [mm], [%]
 };
 
+/// The cached frames of the late part. Throws SceneError if there is none: no figure is 0 for lack of data.
+std::vector<CachedFrame> lateCachedFrames(const SceneRun& run) {
+  std::vector<CachedFrame> cached =
+      cachedFrames(run, static_cast<int>(lateBegin(run.frames.size())) + 1);  // frames count from 1
+  if (cached.empty())
+    throw coupling::SceneError(run.folder + ": none of its last frames is cached, which figures are taken " +
+                               "from (output.every = " + std::to_string(run.scene.output.every) +
+                               "); run it longer, or anew with --set output.every=1 --restart");
+  return cached;
+}
+
 CachedColumns cachedColumns(const SceneRun& run) {
   CachedColumns columns;
-  const int late = static_cast<int>((1 - kLatePart) * static_cast<double>(run.frames.size()));
-  for (const CachedFrame& cached : cachedFrames(run, late)) {
+  for (const CachedFrame& cached : lateCachedFrames(run)) {
     if (cached.bubbles.size() == 0) continue;
     const GasHeights heights = heightsOf(cached.bubbles);
     const SurfaceCensus census = surfaceCensus(cached.bubbles, run.distanceToSolids(cached.bubbles.position));
@@ -52,14 +62,9 @@ CachedColumns cachedColumns(const SceneRun& run) {
   return columns;
 }
 
-double meanOf(const std::vector<double>& column) {
-  return column.empty() ? 0 : totalOf(column) / static_cast<double>(column.size());
-}
-
 /// Largest of the late part of a column.
 double lateMost(const std::vector<double>& column) {
-  const auto late = static_cast<std::ptrdiff_t>((1 - kLatePart) * static_cast<double>(column.size()));
-  return mostOf({column.begin() + late, column.end()});
+  return mostOf({column.begin() + static_cast<std::ptrdiff_t>(lateBegin(column.size())), column.end()});
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ struct TradeFigures {
   TradeCost cost;
 };
 
-/// Reads what a finished run left.
+/// Reads what a finished run left. Throws coupling::SceneError where it cached none of its last frames.
 TradeFigures tradeFiguresOf(const SceneRun& run);
 
 }  // namespace spume::apps

@@ -1,5 +1,7 @@
 #include "apps/trade/trade_page.h"
 
+#include <cmath>
+
 #include "apps/trade/trade_readings.h"
 #include "apps/trade/trade_text.h"
 
@@ -31,8 +33,8 @@ std::string row(const Trade& trade, const std::string& title, const TradeRun& ru
   if (!run.failure.empty()) return text + " | " + run.failureWord() + " |\n";
   text += costCells(run.figures.cost);
   for (std::size_t k = 0; k < kTradeFigures.size(); ++k) {
-    const double of = base.figures.values[k];
-    text += " | " + bold(differenceText(k, run.figures.values[k] - of, of), !trade.within(run, k));
+    const double of = base.figures.values[k], difference = run.figures.values[k] - of;
+    text += " | " + bold(differenceText(k, difference, of), std::abs(difference) > trade.tolerance(k));
   }
   return text + " |\n";
 }
@@ -67,19 +69,21 @@ std::string table(const Trade& trade, bool terms) {
 
 }  // namespace
 
-std::string tradePage(const Trade& trade, const std::string& plot, const std::string& command) {
+std::string tradePage(const Trade& trade, const std::string& plot, const std::string& command,
+                      const std::string& reading) {
   const double own = trade.seconds().mean;
   std::string text =
-      "# Speed against accuracy: " + trade.scene.name + "\n\n`" + command + "`: " + lengthOf(trade) +
-      ". The scene's own settings take " + number("%.3g", own) +
+      "# Speed against accuracy: " + trade.scene.name + "\n\n" + (reading.empty() ? "" : reading + "\n\n") +
+      "`" + command + "`: " + lengthOf(trade) + ". The scene's own settings take " + number("%.3g", own) +
       " s a frame, the reference, every dial at its finest, " +
       number("%.3g", trade.reference.figures.cost.seconds) + " s.\n\n" +
-      "* Quicker, and no figure beyond the noise: " + quickerSettings(trade) + ".\n" +
+      "* Quicker, and no figure beyond the noise of the scene's own: " + quickerSettings(trade) + ".\n" +
       "* Terms this scene does not need, for these figures at this length: " + idleTerms(trade) +
       ".\n* Terms it needs: " + neededTerms(trade) + ".\n\n";
   text +=
-      "Bold: further from the mean of the scene's own " + std::to_string(trade.own.size()) +
-      " seeds than a further seed would lie once in a hundred runs, and enough to be seen (1 %; 0.1 or 1 "
+      "Bold: larger than the noise, the difference from the mean of the scene's own " +
+      std::to_string(trade.own.size()) +
+      " seeds that a further seed exceeds once in a hundred runs, and enough to be seen (1 %; 0.1 or 1 "
       "points of a percentage). A figure of many is bold by chance now and then.\n\n## Dials: differences "
       "from the reference\n\n";
   text += table(trade, false);
@@ -90,6 +94,13 @@ std::string tradePage(const Trade& trade, const std::string& plot, const std::st
       "curve goes through the scene's own settings.*\n\n## Terms: differences from the scene's own "
       "settings\n\n";
   return text + table(trade, true);
+}
+
+std::string readingOf(const std::string& page) {
+  const std::size_t start = ("\n\n" + page).find("\n\nReading:");
+  if (start == std::string::npos) return {};
+  const std::string paragraph = page.substr(start, page.find("\n\n", start) - start);
+  return paragraph.substr(0, paragraph.find_last_not_of('\n') + 1);
 }
 
 }  // namespace spume::apps

@@ -18,7 +18,7 @@ double distance(const Trade& trade, const TradeRun& run) {
   for (std::size_t k = 0; k < kTradeFigures.size(); ++k) {
     if (kTradeFigures[k].isError) continue;
     const double difference = run.figures.values[k] - trade.reference.figures.values[k];
-    if (difference != 0) squares += std::pow(difference / trade.tolerance(k), 2);
+    squares += std::pow(trade.inTolerances(difference, k), 2);
     ++figures;
   }
   return std::sqrt(squares / figures);

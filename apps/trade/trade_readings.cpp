@@ -23,7 +23,7 @@ std::string furthest(const Trade& trade, const TradeRun& run) {
   std::size_t most = 0;
   const auto moved = [&](std::size_t k) { return run.figures.values[k] - trade.noise(k).mean; };
   for (std::size_t k = 1; k < kTradeFigures.size(); ++k)
-    if (std::abs(moved(k)) / trade.tolerance(k) > std::abs(moved(most)) / trade.tolerance(most)) most = k;
+    if (std::abs(trade.inTolerances(moved(k), k)) > std::abs(trade.inTolerances(moved(most), most))) most = k;
   return std::string(kTradeFigures[most].name) + " " +
          differenceText(most, moved(most), trade.noise(most).mean);
 }
@@ -55,7 +55,7 @@ std::string neededTerms(const Trade& trade) {
   for (const TradeSweep& sweep : trade.sweeps)
     for (const TradeRun& run : sweep.runs)
       if (sweep.dial.kind == DialKind::term && sweep.dial.name != kAllTogether && !trade.allWithin(run))
-        found.push_back(sweep.dial.title + " " + run.label + " (" + furthest(trade, run) + ")");
+        found.push_back(sweep.dial.title + ": " + run.label + " (" + furthest(trade, run) + ")");
   return joined(found);
 }
 

@@ -13,13 +13,16 @@ struct RowNames {
   std::string study, title;
 };
 
+/// A number of a run: NaN, which misses every aim, of one that did not get to its end.
+double orNan(const TradeRun& run, double value) { return run.failure.empty() ? value : std::nan(""); }
+
 ResultRow rowOf(const Trade& trade, const RowNames& names, const TradeRun& run, const std::string& quantity) {
   ResultRow row;
   row.study = names.study;
   row.title = names.title;
   row.resolution = lengthOf(trade);
   row.quantity = quantity;
-  row.seconds = run.figures.cost.seconds * trade.scene.time.frames;
+  row.seconds = orNan(run, run.figures.cost.seconds * trade.scene.time.frames);
   row.note = run.failure;
   return row;
 }
@@ -33,7 +36,7 @@ void addCost(const Trade& trade, const RowNames& names, const TradeRun& run, std
         {"iterations of the pressure a frame", cost.pressureIterations, ""},
         {"iterations of the implicit step a frame", cost.foamIterations, ""}}) {
     ResultRow row = rowOf(trade, names, run, name);
-    rows.push_back(reportOnly(row, value, unit));
+    rows.push_back(reportOnly(row, orNan(run, value), unit));
   }
 }
 
@@ -45,7 +48,7 @@ void addRows(const Trade& trade, const RowNames& names, const TradeRun& run, boo
     const std::string unit = kTradeFigures[k].unit;
     row.reference = number("%.6g", trade.reference.figures.values[k]) + (unit.empty() ? "" : " " + unit);
     row.source = "every dial at its finest";
-    const double value = run.failure.empty() ? run.figures.values[k] : std::nan("");
+    const double value = orNan(run, run.figures.values[k]);
     const double mean = trade.noise(k).mean, band = trade.tolerance(k);
     rows.push_back(judged ? aimWithin(row, value, mean - band, mean + band, unit)
                           : reportOnly(row, value, unit));

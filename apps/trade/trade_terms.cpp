@@ -8,13 +8,12 @@ namespace {
 using coupling::Overrides;
 using coupling::Scene;
 
-bool flows(const Scene& scene) { return !scene.stillPool.enabled; }
-
-/// A term that one or two keys switch off, and whether it is at work.
+/// A term that one or two keys switch off, whether it is at work, and what takes its place.
 struct Term {
   const char *name, *title;
   Overrides off;
   bool (*works)(const Scene&);
+  const char* without = "off";
 };
 
 const std::vector<Term>& foamTerms() {
@@ -26,17 +25,21 @@ const std::vector<Term>& foamTerms() {
          return s.foam.dragLaw != foam::DragLaw::coefficient || s.foam.dragCoefficient > 0;
        }},
       {"dirt",
-       "contaminated water: drag as in clean water",
+       "contaminated water",
        {{"foam.drag_law", "clean"}},
-       [](const Scene& s) { return s.foam.dragLaw == foam::DragLaw::contaminated; }},
+       [](const Scene& s) { return s.foam.dragLaw == foam::DragLaw::contaminated; },
+       "clean"},
       {"added_mass",
        "added mass",
        {{"foam.added_mass", "0"}},
        [](const Scene& s) { return s.foam.addedMass > 0; }},
       {"pressure_gradient",
-       "buoyancy from the liquid's pressure: hydrostatic",
+       "buoyancy from the liquid's pressure",
        {{"foam.buoyancy_law", "hydrostatic"}},
-       [](const Scene& s) { return flows(s) && s.foam.buoyancyLaw == foam::BuoyancyLaw::pressureGradient; }},
+       [](const Scene& s) {
+         return s.solvesLiquid() && s.foam.buoyancyLaw == foam::BuoyancyLaw::pressureGradient;
+       },
+       "hydrostatic"},
       {"air_drag",
        "drag of the air",
        {{"foam.air_drag_law", "coefficient"}, {"foam.air_drag_coefficient", "0"}},
@@ -60,11 +63,12 @@ const std::vector<Term>& foamTerms() {
        {{"foam.contact_damping", "0"}},
        [](const Scene& s) { return s.foam.contactDamping > 0; }},
       {"dry_aloft",
-       "drier films aloft: one wetness",
+       "drier films aloft",
        {{"foam.wetness_law", "constant"}},
        [](const Scene& s) {
          return s.foam.wetnessLaw == foam::WetnessLaw::height && s.foam.wetnessAloft != s.foam.wetness;
-       }},
+       },
+       "one wetness"},
       {"borders",
        "films that draw to Plateau's law",
        {{"foam.border_rate", "0"}},
@@ -110,7 +114,8 @@ const std::vector<Term>& liquidTerms() {
 
 void add(const std::vector<Term>& terms, const Scene& scene, std::vector<Dial>& dials) {
   for (const Term& term : terms)
-    if (term.works(scene)) dials.push_back({term.name, term.title, DialKind::term, {{"off", term.off}}});
+    if (term.works(scene))
+      dials.push_back({term.name, term.title, DialKind::term, {{term.without, term.off}}});
 }
 
 /// Walls and solids that hold bubbles hold none.
@@ -145,7 +150,7 @@ std::vector<Dial> termsOf(const Scene& scene) {
   std::vector<Dial> dials;
   add(foamTerms(), scene, dials);
   addHolding(scene, dials);
-  if (!flows(scene)) return dials;
+  if (!scene.solvesLiquid()) return dials;
   add(liquidTerms(), scene, dials);
   addTurbulence(scene, dials);
   addTwoWay(scene, dials);

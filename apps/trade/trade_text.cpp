@@ -27,7 +27,7 @@ std::string differenceText(std::size_t figure, double difference, double of) {
 
 std::string lengthOf(const Trade& trade) {
   std::string text = std::to_string(trade.scene.time.frames) + " frames";
-  if (!trade.scene.stillPool.enabled) text += ", " + std::to_string(trade.scene.domain.resolution) + " cells";
+  if (trade.scene.solvesLiquid()) text += ", " + std::to_string(trade.scene.domain.resolution) + " cells";
   return text;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "coupling/scene_builder.h"
-
 namespace spume::apps {
 namespace {
 
@@ -29,7 +27,6 @@ Wedge makeWedge(const std::vector<Variation>& variations,
     WedgeVariant variant{names[n], all[n], {}};
     try {
       variant.scene = read(variant.overrides);
-      coupling::checkObjects(variant.scene);
     } catch (const coupling::SceneError& error) {
       throw coupling::SceneError(inVariant(error.what(), variant));
     }

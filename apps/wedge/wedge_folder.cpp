@@ -21,9 +21,11 @@ void requireSameRun(const WedgeVariant& variant, const std::string& folder) {
                              differences.front() + "); name another folder with -o, or remove this one");
 }
 
-/// Throws FileError if the file is there and no sweep wrote it.
-void requireOurs(const std::string& path, const std::string& mark) {
-  if (!fs::exists(path) || coupling::readFile(path).substr(0, 100).find(mark) != std::string::npos) return;
+const std::string kScriptStart = std::string("#!/bin/sh\n") + kWedgeMark, kTableStart = "folder,";
+
+/// Throws FileError if the file is there and no sweep wrote it: those of a sweep begin with `start`.
+void requireOurs(const std::string& path, const std::string& start) {
+  if (!fs::exists(path) || coupling::readFile(path).starts_with(start)) return;
   throw coupling::FileError(path + ": no sweep wrote this file, and one would replace it; name another " +
                             "folder with -o");
 }
@@ -39,9 +41,8 @@ void writeScript(const std::string& path, const std::string& text) {
 
 void writeWedge(const Wedge& wedge, const std::string& folder, const std::string& program,
                 const std::optional<SlurmRequest>& slurm) {
-  requireOurs(folder + "/commands.sh", kWedgeMark);
-  requireOurs(folder + "/wedge.sbatch", kWedgeMark);
-  requireOurs(folder + "/wedge.csv", "folder");
+  for (const char* script : {"/commands.sh", "/wedge.sbatch"}) requireOurs(folder + script, kScriptStart);
+  for (const char* table : {"/wedge.csv", "/summary.csv"}) requireOurs(folder + table, kTableStart);
   for (const WedgeVariant& variant : wedge.variants) requireSameRun(variant, folder);
   for (const WedgeVariant& variant : wedge.variants) {
     coupling::createFolder(folder + "/" + variant.folder);
@@ -51,6 +52,11 @@ void writeWedge(const Wedge& wedge, const std::string& folder, const std::string
   coupling::replaceFile(folder + "/wedge.csv", wedgeTable(wedge));
   writeScript(folder + "/commands.sh", commandScript(wedge, program));
   if (slurm) writeScript(folder + "/wedge.sbatch", slurmScript(wedge, *slurm));
+}
+
+void writeSummary(const WedgeSummary& summary, const std::string& folder) {
+  requireOurs(folder + "/summary.csv", kTableStart);
+  coupling::replaceFile(folder + "/summary.csv", summary.csv());
 }
 
 }  // namespace spume::apps

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/wedge/wedge_scripts.h"
+#include "apps/wedge/wedge_summary.h"
 
 namespace spume::apps {
 
@@ -13,5 +14,9 @@ namespace spume::apps {
 /// written. A sweep that is there already may be written again, also longer or with more values.
 void writeWedge(const Wedge& wedge, const std::string& folder, const std::string& program,
                 const std::optional<SlurmRequest>& slurm);
+
+/// Writes summary.csv of a sweep. Throws coupling::FileError, also where another program's file is in the
+/// way.
+void writeSummary(const WedgeSummary& summary, const std::string& folder);
 
 }  // namespace spume::apps

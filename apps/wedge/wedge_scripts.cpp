@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/reproduce/csv_field.h"
+#include "apps/wedge/shell_word.h"
 
 namespace spume::apps {
 namespace {
@@ -40,12 +41,6 @@ std::string directives(const Wedge& wedge, const SlurmRequest& request) {
 }
 
 }  // namespace
-
-std::string shellWord(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
-}
 
 std::string commandScript(const Wedge& wedge, const std::string& program) {
   std::string text =

@@ -12,9 +12,6 @@ inline constexpr char kWedgeMark[] = "# Written by spume wedge";
 /// Scene of a variant, every value resolved, in its folder. `spume run` writes its own scene.toml beside it.
 inline constexpr char kVariantScene[] = "variant.toml";
 
-/// A text as one word of a POSIX shell.
-std::string shellWord(const std::string& text);
-
 /// A script that runs the variants one after the other in the folder it lies in. A variant that fails does
 /// not hold up the others; the script then ends with the code of the first that did. Interruptions and the
 /// end of --max-wall (75, 130, 143) end it at once. `program`: the spume to run unless $SPUME names another.

@@ -23,8 +23,11 @@ std::string statusIn(const std::string& json) {
   return json.substr(start, json.find('"', start) - start);
 }
 
-double meanOf(const std::vector<double>& column) {
-  return column.empty() ? 0 : totalOf(column) / static_cast<double>(column.size());
+/// A run that was stopped early has none of its statistics yet, or empty ones.
+bool isWritten(const std::string& path) {
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(path, missing);
+  return !missing && size > 0;
 }
 
 double lastOf(const std::vector<double>& column) { return column.empty() ? 0 : column.back(); }
@@ -35,7 +38,7 @@ void readRun(const std::string& folder, VariantSummary& variant) {
     return;
   }
   variant.status = statusIn(coupling::readFile(folder + "/run.json"));
-  if (coupling::readFile(folder + "/steps.csv").empty()) return;  // stopped before its first step
+  if (!isWritten(folder + "/steps.csv") || !isWritten(folder + "/frames.csv")) return;
   const FrameCurves frames = readFrameCurves(folder);
   variant.frames = static_cast<int>(frames.size());
   variant.bubbles = lastOf(frames.bubbles);

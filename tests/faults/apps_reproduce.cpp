@@ -18,6 +18,14 @@ TEST(ReproduceFaults, MissingSceneIsAnInputError) {
                 "/nonexistent/cluster.toml");
 }
 
+TEST(ReproduceFaults, ALongerRunStandsForNoShorterOne) {
+  const Scratch scratch;
+  const std::string command = "reproduce cluster --scenes " SPUME_SOURCE_DIR "/data/scenes -o " +
+                              (scratch / "results") + " --runs " + (scratch / "runs") + " --frames ";
+  ASSERT_EQ(runSpume(command + "2").code, 0);
+  expectRefused(runSpume(command + "1"), 2, scratch / "runs/cluster: holds a run of 2 frames");
+}
+
 TEST(ReproduceFaults, UnwritableOutputIsAnOutputError) {
   expectRefused(runSpume("reproduce cluster -o /proc/nothing"), 4, "/proc/nothing");
 }

@@ -25,6 +25,28 @@ TEST(TradeFaults, UnwritableRunsAreAnOutputError) {
                 4, "/proc/nothing");
 }
 
+TEST(TradeFaults, ALongerRunStandsForNoShorterOne) {
+  const Scratch scratch;
+  const std::string command = "trade " + scratch.write("pour.toml", kPour) + " --seeds 2 --dials dirt -o " +
+                              (scratch / "t") + " --runs " + (scratch / "runs");
+  ASSERT_EQ(runSpume(command + " --frames 2").code, 0);
+  const std::string page = contentsOf(scratch / "t/trade_pour.md");
+  const Outcome shorter = runSpume(command + " --frames 1");
+  expectRefused(shorter, 2, scratch / "runs/pour/seed=1: holds a run of 2 frames");
+  expectRefused(shorter, 2, "--frames 2");
+  EXPECT_EQ(contentsOf(scratch / "t/trade_pour.md"), page);
+  EXPECT_EQ(runSpume(command + " --frames 2").code, 0) << "it is as it was";
+}
+
+TEST(TradeFaults, FiguresAreNotTakenFromNothing) {
+  const Scratch scratch;
+  expectRefused(runSpume("trade " + scratch.write("pour.toml", kPour) +
+                         " --frames 2 --seeds 2 --dials dirt --set output.every=3 -o " + (scratch / "t") +
+                         " --runs " + (scratch / "runs")),
+                2, "output.every = 3");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "t"));
+}
+
 TEST(TradeFaults, ListRunsNothing) {
   const Scratch scratch;
   const Outcome outcome =

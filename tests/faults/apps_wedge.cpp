@@ -54,6 +54,26 @@ TEST(WedgeFaults, FilesOfOthersAreKept) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "w/wedge.csv"));
 }
 
+TEST(WedgeFaults, TablesOfOthersAreKept) {
+  for (const char* table : {"wedge.csv", "summary.csv"}) {
+    const Scratch scratch;
+    std::filesystem::create_directories(scratch / "w");
+    const std::string contents = "owner,folder,size\nme,a,1\n";  // "folder" is a common word in a table
+    const std::string path = scratch.write(std::string("w/") + table, contents);
+    expectRefused(wedge(scratch, "--vary liquid.cfl=1,2"), 4, std::string(table) + ": no sweep wrote");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "w/commands.sh")) << table;
+    EXPECT_EQ(contentsOf(path), contents);
+  }
+}
+
+TEST(WedgeFaults, ASummaryOfAnotherIsKept) {
+  const Scratch scratch;
+  ASSERT_EQ(wedge(scratch, "--vary liquid.cfl=1,2").code, 0);
+  const std::string path = scratch.write("w/summary.csv", "mine\n");
+  expectRefused(runSpume("wedge --summary " + (scratch / "w")), 4, "summary.csv: no sweep wrote");
+  EXPECT_EQ(contentsOf(path), "mine\n");
+}
+
 TEST(WedgeFaults, ARunOfAnotherSceneIsKept) {
   const Scratch scratch;
   ASSERT_EQ(wedge(scratch, "--vary liquid.cfl=2 --frames 1 --run").code, 0);

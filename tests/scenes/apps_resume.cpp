@@ -51,7 +51,10 @@ TEST(Resume, GoesOnFromTheMiddleOfAFrame) {
   const Scratch scratch;
   const std::string scene = scratch.write("pour.toml", kPour), a = scratch / "a", b = scratch / "b";
   ASSERT_EQ(runSpume("run " + scene + " --frames 6 -o " + a).code, 0);
-  ASSERT_EQ(runSpume("run " + scene + " --frames 6 --max-wall 0.001s -o " + b).code, 75);
+  const Outcome stopped = runSpume("run " + scene + " --frames 6 --restart --max-wall 0.001s -o " + b);
+  ASSERT_EQ(stopped.code, 75);
+  EXPECT_NE(stopped.output.find("the same command without --restart goes on"), std::string::npos)
+      << stopped.output;
   ASSERT_EQ(runSpume("run " + scene + " --frames 6 -o " + b).code, 0);
   expectSameRun(a, b);
 }

@@ -67,6 +67,23 @@ TEST(TradeDials, AreThoseThatDoSomething) {
   EXPECT_EQ(dialCalled(pouring, "two_way").settings.front().label, "on");
 }
 
+TEST(TradeDials, OfALiquidOfAnEarlierRunAreThoseOfTheFoam) {
+  coupling::Scene scene = coupling::readScene(SPUME_SOURCE_DIR "/data/scenes/pouring.toml");
+  ASSERT_NO_THROW(dialCalled(dialsOf(scene), "pressure_gradient"));
+  scene.liquidCache.run = "out/pouring";
+  const auto dials = dialsOf(scene);
+  for (const char* name : {"resolution", "cfl", "two_way", "volume_control", "pressure_gradient"})
+    EXPECT_THROW(dialCalled(dials, name), std::out_of_range) << name;
+  for (const char* name : {"solver", "step", "drag"}) EXPECT_NO_THROW(dialCalled(dials, name)) << name;
+}
+
+TEST(TradeDials, TermsThatGiveWayToOthersAreNotCalledOff) {
+  const auto soap = dialsOf(coupling::readScene(SPUME_SOURCE_DIR "/data/scenes/soap.toml"));
+  EXPECT_EQ(dialCalled(soap, "dirt").settings.front().label, "clean");
+  EXPECT_EQ(dialCalled(soap, "dry_aloft").settings.front().label, "one wetness");
+  EXPECT_EQ(dialCalled(soap, "drag").settings.front().label, "off");
+}
+
 TEST(TradeDials, TheReferenceIsTheLastSettingOfEach) {
   const std::string path = SPUME_SOURCE_DIR "/data/scenes/pouring.toml";
   const coupling::Scene finest = coupling::readScene(path, finestOf(dialsOf(coupling::readScene(path))));
@@ -132,7 +149,7 @@ Trade madeUp() {
 TEST(Trade, TellsTermsThatChangeNothingFromThoseThatDo) {
   EXPECT_EQ(termsWithoutEffect(madeUp()), (std::vector<std::string>{"idle", "other"}));
   EXPECT_EQ(idleTerms(madeUp()), "idle's title, other's title");
-  EXPECT_EQ(neededTerms(madeUp()), "vital's title off (bubbles alive +24.0 %)");
+  EXPECT_EQ(neededTerms(madeUp()), "vital's title: off (bubbles alive +24.0 %)");
   EXPECT_EQ(quickerSettings(madeUp()), "quick's title off (0.50 of the time)");
 }
 
@@ -164,7 +181,7 @@ TEST(Trade, ADivergedRunIsNeitherWithoutEffectNorQuick) {
   for (TradeSweep& sweep : trade.sweeps) sweep.runs.front().failure = "diverged: NaN";
   EXPECT_TRUE(termsWithoutEffect(trade).empty());
   EXPECT_EQ(quickerSettings(trade), "none");
-  EXPECT_NE(neededTerms(trade).find("idle's title off (diverged)"), std::string::npos);
+  EXPECT_NE(neededTerms(trade).find("idle's title: off (diverged)"), std::string::npos);
   EXPECT_NE(tradePage(trade, "p.svg", "c").find("| quick's title | off | diverged |"), std::string::npos);
 }
 
@@ -173,6 +190,64 @@ TEST(Trade, DifferencesNobodySeesCountAsNone) {
   trade.own = {runWith(1000), runWith(1000)};  // no noise at all
   EXPECT_TRUE(trade.within(runWith(1010), 0));
   EXPECT_FALSE(trade.within(runWith(1011), 0));
+}
+
+/// What is nothing in every run, as without bubbles, is no distance: neither in words nor in the plot.
+TEST(Trade, NothingOfNothingIsNoDistance) {
+  Trade trade;
+  trade.own = {runWith(0), runWith(0)};
+  EXPECT_EQ(trade.tolerance(0), 0);
+  EXPECT_EQ(trade.inTolerances(0, 0), 0);
+  EXPECT_DOUBLE_EQ(trade.inTolerances(0.3, kLiquidOff), 3);
+  TradeRun drifts = runWith(0);
+  drifts.figures.values[kLiquidOff] = 0.3;
+  trade.sweeps = {sweepOf("control", DialKind::term, drifts), sweepOf("fine", DialKind::foam, runWith(0))};
+  EXPECT_EQ(neededTerms(trade), "control's title: off (liquid off, worst frame +0.30)");
+  EXPECT_EQ(tradePlot(trade).find("nan"), std::string::npos);
+}
+
+/// Without drag it does not matter whose law it followed: what switches all at once leaves none of it.
+TEST(Trade, TermsThatSetTheSameKeyGoTogether) {
+  const std::string path = SPUME_SOURCE_DIR "/data/scenes/pouring.toml";
+  Trade trade;
+  trade.own = {runWith(100), runWith(100)};
+  for (const Dial& dial : dialsOf(coupling::readScene(path)))
+    if (dial.name == "drag" || dial.name == "dirt") trade.sweeps.push_back({dial, {runWith(100)}});
+  ASSERT_EQ(trade.sweeps.size(), 2u);
+  const coupling::Scene without = coupling::readScene(path, allWithoutEffect(trade));
+  EXPECT_EQ(without.foam.dragLaw, foam::DragLaw::coefficient);
+  EXPECT_EQ(without.foam.dragCoefficient, 0);
+}
+
+TEST(Trade, AReferenceTheSceneDoesNotAllowIsRefusedBeforeAnythingRuns) {
+  const std::string path = SPUME_SOURCE_DIR "/data/scenes/pouring.toml";
+  const TradePlan plan{
+      [&](coupling::Overrides changes) {
+        changes.insert(changes.begin(), {"domain.resolution", "700"});  // 1050 are more than there may be
+        return coupling::readScene(path, changes);
+      },
+      {},
+      2};
+  StudyContext context;
+  int runs = 0;
+  context.runScene = [&](const coupling::Scene&, const std::string&) { ++runs; };
+  EXPECT_THROW(runTrade(plan, context), coupling::SceneError);
+  EXPECT_EQ(runs, 0);
+}
+
+TEST(TradeTable, ARunThatDidNotGetToItsEndHasNoFigures) {
+  Trade trade = madeUp();
+  trade.sweeps.resize(1);
+  trade.sweeps.front().runs.front().failure = "diverged: NaN";
+  const ResultTable table = tradeTable(trade);
+  std::size_t rows = 0;
+  for (const ResultRow& row : table.rows()) {
+    const bool failed = row.study == "idle";
+    EXPECT_EQ(std::isnan(row.figure), failed) << row.study << ' ' << row.quantity;
+    EXPECT_EQ(std::isnan(row.seconds), failed) << row.study << ' ' << row.quantity;
+    rows += failed;
+  }
+  EXPECT_GT(rows, kTradeFigures.size()) << "times and iterations, too";
 }
 
 TEST(TradeTable, RowsAimAtTheBandOfTheScenesOwnRuns) {
@@ -197,6 +272,35 @@ TEST(TradePage, TheReferenceDiffersNotFromItself) {
   EXPECT_NE(row.find("+0.0 %"), std::string::npos) << row;
   EXPECT_EQ(row.find_first_of("123456789", row.find("| 10 |") + 6), std::string::npos) << row;
   EXPECT_NE(page.find("**-36.4 %**"), std::string::npos) << "rough: 70 against 110 is bold; " << page;
+}
+
+/// In both tables, although the dials' base lies elsewhere than the mean of the scene's own runs.
+TEST(TradePage, BoldIsTheDifferenceItMarks) {
+  Trade trade = madeUp();
+  trade.reference = runWith(130, 10);  // the band is 22.9
+  const std::string page = tradePage(trade, "p.svg", "c");
+  const auto firstFigure = [&](const std::string& start) {
+    std::size_t at = page.find(start);
+    if (at == std::string::npos) return start + " is not there";
+    for (int bar = 0; bar < 8; ++bar) at = page.find('|', at) + 1;
+    return page.substr(at, page.find('|', at) - at);
+  };
+  EXPECT_EQ(firstFigure("| reference | finest |"), " +0.0 % ");
+  EXPECT_EQ(firstFigure("| scene | own |"), " **-23.1 %** ");
+  EXPECT_EQ(firstFigure("| quick's title | off |"), " **-23.1 %** ");
+  EXPECT_EQ(firstFigure("| idle's title | off |"), " +22.0 % ");
+  EXPECT_EQ(firstFigure("| vital's title | off |"), " **+24.0 %** ");
+}
+
+TEST(TradePage, AReadingIsKept) {
+  const std::string page = tradePage(madeUp(), "p.svg", "c");
+  EXPECT_EQ(readingOf(page), "");
+  const std::string reading = "Reading: more\nthan one line, `code`.";
+  const std::string read = tradePage(madeUp(), "p.svg", "c", reading);
+  EXPECT_EQ(readingOf(read), reading);
+  EXPECT_EQ(tradePage(madeUp(), "p.svg", "c", readingOf(read)), read);
+  EXPECT_EQ(readingOf(page + "\nReading: last\n"), "Reading: last");
+  EXPECT_EQ(readingOf("A word on Reading: none.\n"), "");
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "apps/wedge/shell_word.h"
 #include "apps/wedge/variation.h"
-#include "apps/wedge/wedge_scripts.h"
+#include "apps/wedge/wedge_summary.h"
 #include "tests/support/apps_program.h"
 
 namespace spume::apps {
@@ -79,9 +80,34 @@ TEST(FolderNames, AreSafeShortAndUnique) {
 
 TEST(ShellWord, ComesThroughAShellUnchanged) {
   const apps::test::Scratch scratch;
-  const std::string odd = "it's $HOME; \"`x`\" \\ a  b";
-  ASSERT_EQ(std::system(("printf %s " + shellWord(odd) + " >" + (scratch / "said")).c_str()), 0);
-  EXPECT_EQ(apps::test::contentsOf(scratch / "said"), odd);
+  for (const std::string odd :
+       {"it's $HOME; \"`x`\" \\ a  b", "", "*", "~", "a=[0, -1, 0]", "#a", "{a,b}", "out/a=2.5_b-c+d"}) {
+    ASSERT_EQ(std::system(("printf %s " + shellWord(odd) + " >" + (scratch / "said")).c_str()), 0);
+    EXPECT_EQ(apps::test::contentsOf(scratch / "said"), odd);
+  }
+}
+
+TEST(ShellWord, IsQuotedOnlyWhereItMustBe) {
+  EXPECT_EQ(shellWord("out/look/commands.sh"), "out/look/commands.sh");
+  EXPECT_EQ(shellWord("a b"), "'a b'");
+  EXPECT_EQ(shellWord(""), "''");
+}
+
+/// A run that was stopped before its first step, or whose statistics somebody took away.
+TEST(WedgeSummary, ARunWithoutStatisticsHasItsStatusAlone) {
+  const apps::test::Scratch scratch;
+  scratch.write("wedge.csv", "folder,liquid.cfl\na,1\nb,2\nc,3\n");
+  for (const char* folder : {"a", "b"}) {
+    std::filesystem::create_directories(scratch / folder);
+    scratch.write(std::string(folder) + "/run.json", "{\n  \"status\": \"stopped\"\n}\n");
+  }
+  scratch.write("b/steps.csv", "");
+  const WedgeSummary summary = summarize(scratch / "");
+  ASSERT_EQ(summary.variants.size(), 3u);
+  EXPECT_EQ(summary.variants[0].status, "stopped");
+  EXPECT_EQ(summary.variants[1].status, "stopped");
+  EXPECT_EQ(summary.variants[2].status, "not begun");
+  for (const VariantSummary& variant : summary.variants) EXPECT_EQ(variant.frames, 0);
 }
 
 }  // namespace
