@@ -75,6 +75,7 @@ void addFoam(CLI::App& program, Action& action) {
       "entrained stay as they were");
   options->session.addTo(*verb, "<DIR>_foam");
   verb->footer(
+      "Runs over the frames that are cached, unless --frames asks for fewer.\n"
       "Between cached frames the liquid is blended along its velocity: cache every frame (output.every = 1)\n"
       "where it is fast. Bubbles that its motion bore are born where and when they were.\n"
       "Examples:\n"

@@ -18,7 +18,7 @@ constexpr int kResolution = 32;
 constexpr double kEdge = 0.12;  // [m]
 constexpr double kDx = kEdge / kResolution;
 constexpr double kStep = 0.01;       // [s]
-constexpr double kRestSpeed = 1e-8;  // [m/s] what issue and model ask of a liquid at rest
+constexpr double kRestSpeed = 1e-8;  // [m/s] accuracy, F1: of a liquid at rest
 /// Volumes of a liquid at rest, relative: phi is a float, its round-off moves the surface by 1e-7 cells
 /// of 10.
 constexpr double kRestVolume = 1e-7;
