@@ -45,6 +45,7 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
       drops(setup.grid),
       pocketBooks(setup.grid, params),
       volumeControl(setup.grid, params, &solids),
+      wallSlip(setup.grid),
       viscosity(setup.grid, params),
       projection(setup.grid, params),
       source(setup.grid.cells),
@@ -60,6 +61,7 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
 void LiquidStages::start() {
   updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time, solids);
   extension.rebuild(solids);
+  wallSlip.rebuild(solids);
   surfaceStands = false;
   lastAdvance = 0;
   maxSpeed = carryingSpeed();
@@ -93,6 +95,7 @@ void LiquidStages::moveSolids(double dt) {
   }
   surfaceStands = false;
   extension.rebuild(solids, &psiBefore);
+  wallSlip.rebuild(solids);
   extension.uncover(state.phi);
   extension.apply(state.phi);
 }
@@ -225,6 +228,7 @@ void LiquidStages::moveVelocity(double dt, LiquidStepReport& report) {
     acceleration.advect(state.phi, dt, velocityAdvector, state.velocity);
   else
     velocityAdvector.advance(params.velocityAdvection, state.phi, dt, state.velocity);
+  slipAlongWalls();
   depositMomentum(state.grid, landed, state.velocity);
   if (!pushed.empty()) {
     report.pushes = pushes.apply(state.grid, params.density, state.phi, solids.open, pushed, state.velocity);
@@ -232,6 +236,12 @@ void LiquidStages::moveVelocity(double dt, LiquidStepReport& report) {
   }
   constrainToSolids(solids, state.velocity);
   inflows.setVelocity(state.velocity);
+}
+
+/// Liquid that sticks to walls is slowed down there by its viscosity.
+void LiquidStages::slipAlongWalls() {
+  const bool sticks = params.viscosity > 0 && params.noSlip;
+  if (!sticks) wallSlip.apply(state.velocity);
 }
 
 void LiquidStages::applyViscosity(double dt) { viscosity.apply(state.phi, solids, dt, state.velocity); }

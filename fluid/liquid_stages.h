@@ -24,6 +24,7 @@
 #include "fluid/velocity_advection.h"
 #include "fluid/viscosity.h"
 #include "fluid/volume_control.h"
+#include "fluid/wall_slip.h"
 
 namespace spume::fluid {
 
@@ -67,6 +68,7 @@ struct LiquidStages {
   PocketBooks pocketBooks;
   LiquidBodies bodies;
   VolumeControl volumeControl;
+  WallSlip wallSlip;
   Viscosity viscosity;
   Pushes pushes;
   Projection projection;
@@ -107,6 +109,7 @@ struct LiquidStages {
   void fillPockets(double dt);
   void pour(double dt, const ImmersedGas& gas, LiquidStepReport& report);
   void moveVelocity(double dt, LiquidStepReport& report);
+  void slipAlongWalls();
   void applyViscosity(double dt);
   void leapAhead(double dt);
   double velocityAdvance(double dt) const;

@@ -20,6 +20,9 @@ constexpr double kTipped = 4.5;        // [s]
 constexpr double kVolumeTolerance = 0.03;
 /// The same where all of it lies in the tray in sheets and drops of a cell: 4 % in the run it is from.
 constexpr double kSheetTolerance = 0.08;
+/// Drops of the splash that go over the rim, or come down beside it, between two looks: up to 1.6e-3 seen. A
+/// rim that lies a millimetre too low pours a hundred times as much.
+constexpr double kSplash = 3e-3;
 /// The books, against a volume that is a sum of float fractions.
 constexpr double kRoundOff = 1e-6;
 /// What may cling to a glass turned by 115 degrees: its lower side still rises by 25 degrees towards the rim.
@@ -45,7 +48,7 @@ TEST(Glass, IsFilledHoldsItsWaterAndPoursItOverTheRim) {
   EXPECT_NEAR(filled.in, full, kVolumeTolerance * full);
   EXPECT_LE(filled.out, kVolumeTolerance * full);  // drops that splashed over the rim
   runUntil(kBeforeTheRim);
-  EXPECT_LE(sharesOf(simulation).out, filled.out + 1e-3 * full);
+  EXPECT_LE(sharesOf(simulation).out, filled.out + kSplash * full);
   runUntil(kTipped);
   const Shares end = sharesOf(simulation);
   EXPECT_LE(end.in, kLeftInside * full);
