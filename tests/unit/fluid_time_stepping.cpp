@@ -141,6 +141,38 @@ TEST(TimeStepping, AnImpactTakesNoVolumeAndGivesNoEnergy) {
   }
 }
 
+/// Root mean square of the difference in height of columns of cells side by side [dx].
+double roughness(const LiquidState& state) {
+  const Eigen::Vector3i cells = state.grid.cells;
+  const auto heightAt = [&](int i, int k) {
+    int j = 0;
+    while (state.phi(i, j + 1, k) < 0) ++j;
+    return j + state.phi(i, j, k) / (state.phi(i, j, k) - state.phi(i, j + 1, k));
+  };
+  double sum = 0;
+  for (int i = 0; i + 1 < cells.x(); ++i)
+    for (int k = 0; k < cells.z(); ++k) sum += std::pow(heightAt(i + 1, k) - heightAt(i, k), 2);
+  return std::sqrt(sum / ((cells.x() - 1) * cells.z()));
+}
+
+/// A ball of water falls into a pool.
+TEST(TimeStepping, AStirredPoolIsSmoothInTheEnd) {
+  FluidParams params;
+  params.volumeControl = false;
+  LiquidSolver solver(params, {unitCube(24), closedWalls(), {}, {}}, [](const Eigen::Vector3d& x) {
+    return std::min(x.y() - 0.4, (x - Eigen::Vector3d(0.4, 0.7, 0.55)).norm() - 0.15);
+  });
+  const double water = solver.step(0).liquidVolume;
+  double rough = 0, left = 0;
+  for (int n = 0; n < 500; ++n) {
+    left = solver.step(0.02).liquidVolume;
+    if (n >= 250) rough += roughness(solver.state()) / 250;
+  }
+  // With velocities corrected up to the surface 0.16 dx, and 4.1 % of the water lost; now 0.11 and 2.5 %.
+  EXPECT_LT(rough, 0.135);
+  EXPECT_NEAR(left / water, 1, 0.033);
+}
+
 TEST(TimeStepping, StillLiquidStaysStillAsItsStepChanges) {
   LiquidSolver solver({}, {unitCube(12), closedWalls(), {}, {}},
                       [](const Eigen::Vector3d& x) { return x.y() - 0.53; });
