@@ -1,6 +1,6 @@
 #include "foam/predictor.h"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -129,6 +129,12 @@ double chord(double change, double distance, double scale, double tangent) {
   return std::abs(distance) > kClose * scale ? std::min(0.0, change / distance) : tangent;
 }
 
+/// x . M^-1 x of a symmetric positive definite M, by Cramer's rule.
+double alongInverse(const Eigen::Matrix3d& m, const Vector3d& x) {
+  const Vector3d yz = m.col(1).cross(m.col(2)), zx = m.col(2).cross(m.col(0)), xy = m.col(0).cross(m.col(1));
+  return x.dot(x.x() * yz + x.y() * zx + x.z() * xy) / m.col(0).dot(yz);
+}
+
 /// Makes `matrix` turn the motion p = v* - v0 into the impulse that holds the bubble at v0, by a change along
 /// p alone. Where taking that much away would leave a direction in which the bubble runs off by itself, the
 /// matrix is shortened along p instead, which keeps it positive definite.
@@ -140,7 +146,7 @@ void matchHoldingImpulse(const Vector3d& p, const Vector3d& impulse, Eigen::Matr
   const Vector3d along = p / speed;
   const double wanted = along.dot(impulse) / speed, has = along.dot(matrix * along);
   if (!(wanted > 0)) return;
-  if ((has - wanted) * along.dot(matrix.inverse() * along) < kSafe) {
+  if ((has - wanted) * alongInverse(matrix, along) < kSafe) {
     matrix += (wanted - has) * along * along.transpose();
   } else {
     const Eigen::Matrix3d shorten =
@@ -161,9 +167,13 @@ Vector3d predictVelocity(const LoneBubble& b, double dt) {
 
 LinearMotion linearise(const LoneBubble& b, const Vector3d& predicted, double dt) {
   const double phiA = b.phiAfter(b.velocity, dt), phiB = b.phiAfter(predicted, dt);
+  const double inertia = b.mass + dt * (b.airDrag + b.viscousDrag);
+  // Without drag, away from the surface, the prediction is the solution of this linear equation.
+  if (b.drag == 0 && surfaceForceIsConstant(b, phiA) && surfaceForceIsConstant(b, phiB))
+    return {predicted, inertia * Eigen::Matrix3d::Identity()};
   const double change = b.up.dot(b.surfaceForce(phiA) - b.surfaceForce(phiB));
   const double stiffness = -chord(change, phiA - phiB, b.radius, b.surfaceStiffness(phiB));
-  LinearMotion motion{predicted, (b.mass + dt * (b.airDrag + b.viscousDrag)) * Eigen::Matrix3d::Identity()};
+  LinearMotion motion{predicted, inertia * Eigen::Matrix3d::Identity()};
   motion.matrix -= dt * meanDragJacobian(b.drag, b.velocity - b.liquidVelocity, predicted - b.liquidVelocity);
   motion.matrix += dt * dt * b.phiSlope * stiffness * b.up * b.up.transpose();
   matchHoldingImpulse(predicted - b.velocity, dt * b.force(b.velocity, dt), motion.matrix);

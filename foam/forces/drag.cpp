@@ -106,12 +106,6 @@ double viscousDragFactor(const FoamParams& params, double radius, double immerse
 
 Eigen::Vector3d dragForce(double k, const Eigen::Vector3d& slip) { return -k * slip.norm() * slip; }
 
-Eigen::Matrix3d dragJacobian(double k, const Eigen::Vector3d& slip) {
-  const double speed = slip.norm();
-  if (speed == 0) return Eigen::Matrix3d::Zero();
-  return -k * (speed * Eigen::Matrix3d::Identity() + slip * slip.transpose() / speed);
-}
-
 Eigen::Vector3d slipAfter(const Eigen::Vector3d& slip, const Eigen::Vector3d& force, double k, double mass,
                           double dt) {
   const double push = force.norm();
@@ -129,10 +123,19 @@ Eigen::Vector3d slipAfter(const Eigen::Vector3d& slip, const Eigen::Vector3d& fo
 Eigen::Matrix3d meanDragJacobian(double k, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   // Three-point Gauss rule; exact while the slip keeps its direction, and positive always.
   constexpr double kOuter = 0.774596669241483377;
-  const Eigen::Vector3d middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  return (5 * dragJacobian(k, middle - kOuter * half) + 8 * dragJacobian(k, middle) +
-          5 * dragJacobian(k, middle + kOuter * half)) /
-         18;
+  const Eigen::Vector3d middle = 0.5 * (from + to), outer = 0.5 * kOuter * (to - from);
+  const Eigen::Vector3d slips[] = {middle - outer, middle, middle + outer};
+  constexpr double kWeights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  double speeds = 0;
+  for (int point = 0; point < 3; ++point) {
+    const double speed = slips[point].norm();
+    if (speed == 0) continue;
+    speeds += kWeights[point] * speed;
+    mean += slips[point] * (kWeights[point] / speed * slips[point]).transpose();
+  }
+  mean.diagonal().array() += speeds;
+  return -k * mean;
 }
 
 }  // namespace spume::foam

@@ -37,15 +37,13 @@ double viscousDragFactor(const FoamParams& params, double radius, double immerse
 /// Force -k |w| w of a slip w = v - u [N], k = chi c r^2 [kg/m].
 Eigen::Vector3d dragForce(double k, const Eigen::Vector3d& slip);
 
-/// d force / d v = -k (|w| I + w w^T / |w|) [kg/s].
-Eigen::Matrix3d dragJacobian(double k, const Eigen::Vector3d& slip);
-
 /// Slip [m/s] after dt [s] of mass m [kg] under a constant force F [N] and this drag: the exact solution
 /// (v_t tanh(a_0 t / v_t) from rest) when the slip starts along F or F = 0, first order in dt otherwise.
 Eigen::Vector3d slipAfter(const Eigen::Vector3d& slip, const Eigen::Vector3d& force, double k, double mass,
                           double dt);
 
-/// The Jacobian averaged over the slips from `from` to `to`: the slope of the chord between them.
+/// d force / d v = -k (|w| I + w w^T / |w|) [kg/s], averaged over the slips from `from` to `to`: the slope of
+/// the chord between them.
 Eigen::Matrix3d meanDragJacobian(double k, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace spume::foam
