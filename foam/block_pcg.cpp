@@ -42,27 +42,29 @@ Quad padded(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-int BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
-                      const Vectors3& b, double norm, double goal, int maxIterations, Vectors3& x) {
+BlockPcg::Result BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor,
+                                   const CoarseCorrection& coarse, double norm, double goal,
+                                   int maxIterations, Vectors3& b, Vectors3& x) {
   state_.resize(a.size()), image_.resize(a.size());
-  known_.assign(2 * a.size() + 2, Vector4f::Zero());
-  int iterations = 0;
-  Crew::lead(a.tasks(), [&](Crew& crew) {
-    iterations = iterate(crew, a, factor, coarse, b, norm, goal, maxIterations);
-  });
+  known_.resize(2 * a.size() + 2);
+  forEachIndex(known_.size(), [&](std::size_t k) { known_[k].setZero(); });
+  Result result = {};
+  Crew::lead(a.tasks(),
+             [&](Crew& crew) { result = iterate(crew, a, factor, coarse, b, norm, goal, maxIterations); });
   forEachIndex(a.size(), [&](std::size_t k) {
     const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
     const std::size_t i = a.source[k], cluster = coarse.clusterOf(i);
     x[i] += factor.scale[k].matrix().transpose() * sum;
     if (cluster < coarse.clusters()) x[i] += clusters_.sum.segment<3>(3 * cluster);
+    if (result.reached) b[i] = image_[k].head<3>().cast<double>();
   });
-  return iterations;
+  return result;
 }
 
 /// Leaves the solution in the states' sums.
-int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-                      const CoarseCorrection& coarse, const Vectors3& b, double norm, double goal,
-                      int maxIterations) {
+BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                                   const CoarseCorrection& coarse, const Vectors3& b, double norm,
+                                   double goal, int maxIterations) {
   startClusters(coarse, b);
   // |r| follows the norm the iteration knows closely enough to tell when to look at it.
   Norms known = {norm, start(crew, a, factor, b)};
@@ -72,7 +74,7 @@ int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky
     const double guess = known.plain * std::sqrt(slope / known.slope);
     if (guess <= goal || (guess <= kNear * goal && (iterations + 1) % kLook == 0)) {
       known = look(crew, a, factor, std::exchange(length, 0));
-      if (known.plain <= goal) break;
+      if (known.plain <= goal) return {iterations, true, known.plain};
     }
     const double ofRows = searchBack(crew, a, factor, length, momentum);
     turnClusters(momentum);
@@ -88,7 +90,7 @@ int BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky
   }
   if (length != 0)
     sweepForth(crew, a, [&](std::size_t, std::size_t k) { advance(k, static_cast<float>(length)); });
-  return iterations;
+  return {iterations, false, 0};
 }
 
 /// Sets the residual to b, all else to 0. Knows no search direction yet. Returns r . M^-1 r.
@@ -211,6 +213,7 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
     const Eigen::Vector3d across = toVector(coupledWithin(a, k)).head<3>().cast<double>();
     const Eigen::Vector3d plain = scale.solve(toVector(residual).head<3>().cast<double>()) + across;
+    image_[k].head<3>() = plain.cast<float>();
     for (int c = 0; c < 3; ++c) of[0][c] += plain[c] * plain[c];
     addTo(of[1], residual * residual);
   });

@@ -16,10 +16,16 @@ namespace spume::foam {
 /// iteration waits for memory. What rounding leaves is for the caller to find and to improve again.
 class BlockPcg {
  public:
+  struct Result {
+    int iterations;
+    bool reached;  ///< the goal
+    double norm;   ///< |b - A e| as far as the iteration knows, if so [kg m/s]
+  };
   /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
-  /// as the iteration knows, or `maxIterations`; `norm` is |b|. Returns the iterations made.
-  int improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
-              const Vectors3& b, double norm, double goal, int maxIterations, Vectors3& x);
+  /// as the iteration knows, or `maxIterations`; `norm` is |b|. If it gets there, b becomes b - A e, again as
+  /// far as it knows: to about 2e-7 of |b|.
+  Result improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
+                 double norm, double goal, int maxIterations, Vectors3& b, Vectors3& x);
 
  private:
   /// What the iteration knows of a row, in one cache line. With G of IncompleteCholesky and the search
@@ -49,8 +55,9 @@ class BlockPcg {
     double plain, slope;  ///< |r|, r . M^-1 r
   };
 
-  int iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-              const CoarseCorrection& coarse, const Vectors3& b, double norm, double goal, int maxIterations);
+  Result iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                 const CoarseCorrection& coarse, const Vectors3& b, double norm, double goal,
+                 int maxIterations);
   double start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
                     double momentum);
@@ -70,7 +77,8 @@ class BlockPcg {
   std::size_t behind(std::size_t k) const { return state_.size() + 1 + k; }
 
   std::vector<State> state_;
-  std::vector<Eigen::Vector4f> image_;  ///< G^-T q with q = C^-1 (A - C) p
+  /// G^-T q with q = C^-1 (A - C) p. After a look, which leaves no q to go along: the residual r.
+  std::vector<Eigen::Vector4f> image_;
   /// What couplings act on, by SweptSystem::other: p, a 0, and -q.
   std::vector<Eigen::Vector4f> known_;
   std::vector<GroupSums> sums_;  ///< by group

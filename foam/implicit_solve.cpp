@@ -17,6 +17,9 @@ constexpr int kRefinements = 5;
 /// The iteration aims a little below the goal, and no further below the residual than single precision
 /// carries.
 constexpr double kAim = 0.9, kSinglePrecision = 1e-7;
+/// What the iteration knows of the residual it leaves is off by this share of the one it began with (measured
+/// on froths of 16000 and 100000: 0.6e-7 to 1.8e-7).
+constexpr double kDrift = 2e-7;
 /// A pass that does not bring the residual below this share of the last has met round-off.
 constexpr double kStalled = 0.5;
 /// A residual that rounding keeps above the goal is taken up to this share of the right-hand side.
@@ -58,7 +61,7 @@ double ImplicitSolve::follow(const BlockSystem& a, const Vectors3& b, const Vect
 void ImplicitSolve::findResidual(const BlockSystem& a, const Vectors3& b, const Vectors3& x) {
   residual_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
-  norm_ = lengthOf(residual_);
+  norm_ = lengthOf(residual_), drift_ = 0;
 }
 
 double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {
@@ -69,13 +72,14 @@ double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {
 }
 
 SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                                 Vectors3& x) {
+                                 Vectors3& x, double allowed) {
+  if (norm_ <= goal && drift_ > allowed) findResidual(a, b, x);
   const double first = norm_;
   SolveReport report;
   report.converged = first <= goal;
   if (report.converged) return report;
   const bool iterative = solver_ != LinearSolver::cholmod;
-  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, x);
+  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, allowed, x);
   const auto reached = [&] {
     return norm_ <= goal || norm_ <= std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b));
   };
@@ -86,7 +90,7 @@ SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double
 }
 
 int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                           Vectors3& x) {
+                           double allowed, Vectors3& x) {
   if (!std::exchange(isLaidOut_, true)) {
     const bool factors = solver_ == LinearSolver::pcgIncompleteCholesky;
     swept_.copy(a, factors);
@@ -96,9 +100,14 @@ int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal,
   int iterations = 0;
   for (int pass = 0; pass < kRefinements && norm_ > goal && iterations < maxIterations; ++pass) {
     const double last = norm_, aim = std::max(kAim * goal, kSinglePrecision * last);
-    iterations +=
-        pcg_.improve(swept_, cholesky_, coarse_, residual_, last, aim, maxIterations - iterations, x);
-    findResidual(a, b, x);
+    const BlockPcg::Result done =
+        pcg_.improve(swept_, cholesky_, coarse_, last, aim, maxIterations - iterations, residual_, x);
+    iterations += done.iterations;
+    drift_ += kDrift * last;
+    if (done.reached && drift_ <= allowed)
+      norm_ = done.norm;
+    else
+      findResidual(a, b, x);
     if (norm_ > kStalled * last) break;
   }
   return iterations;

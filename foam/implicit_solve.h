@@ -37,19 +37,22 @@ class ImplicitSolve {
   /// Solves until |b - A x| <= goal [kg m/s], from the x and the system that begin() or, after that, solve()
   /// and follow() have last seen. An iteration that does not get there within `maxIterations` is finished by
   /// the direct solver, where its factor fits into memory. A result that did not converge is still the best
-  /// one found.
-  SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
+  /// one found. Saves the time to find the residual anew as long as rounding has not put what is known of it
+  /// off by more than `allowed` [kg m/s].
+  SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x,
+                    double allowed = 0);
   /// Corrects x by a rigid motion of everything, after which the residuals add up to nothing but round-off:
   /// couplings then leave total momentum as it is. Ends work on the system, of which x is what has last been
   /// seen: what it takes from all it adds to the few rows that resist most, and they would have to be solved
   /// again.
   void balance(const BlockSystem& a, Vectors3& x) const;
-  /// b - A x of each row as begin(), follow() or solve() left it [kg m/s].
+  /// b - A x of each row as begin(), follow() or solve() left it [kg m/s]; off by as much as was allowed.
   const Vectors3& left() const { return residual_; }
 
  private:
   void findResidual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
-  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
+  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, double allowed,
+              Vectors3& x);
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
 
   LinearSolver solver_;
@@ -61,6 +64,7 @@ class ImplicitSolve {
   DirectSolve direct_;
   Vectors3 residual_;
   double norm_ = 0;                    ///< of the residual [kg m/s]
+  double drift_ = 0;                   ///< by about how much it is off [kg m/s]
   std::vector<std::uint8_t> isStale_;  ///< rows whose residual follow() has to find again
 };
 

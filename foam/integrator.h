@@ -60,8 +60,9 @@ class Integrator {
     double size;              ///< of what adds up to it [kg m/s]
   };
 
-  PairShare shareOf(const BubbleStore& bubbles, const FoamTopology& topology, const OverlapPair& overlap,
-                    double dt) const;
+  void findShares(const BubbleStore& bubbles, const FoamTopology& topology, double dt);
+  void setShares(const PairForces& forces, const FoamTopology& topology, std::size_t first, std::size_t count,
+                 double dt);
   void assembleRow(std::size_t i, const Neighbours& neighbours);
   /// Solves, and again while wall contacts change.
   SolveReport solveWithContacts(double dt);

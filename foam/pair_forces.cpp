@@ -23,34 +23,82 @@ Eigen::Vector3d drawnDirection(std::uint64_t seed, std::uint64_t idI, std::uint6
   return {across * std::cos(angle), y, across * std::sin(angle)};
 }
 
-Eigen::Vector3d pairDirection(const FoamParams& params, const BubbleStore& bubbles, const OverlapPair& pair) {
-  const double larger = std::max(bubbles.radius[pair.i], bubbles.radius[pair.j]);
-  if (pair.distance <= kCoincident * larger)
-    return drawnDirection(params.seed, bubbles.id[pair.i], bubbles.id[pair.j]);
-  return (bubbles.position[pair.j] - bubbles.position[pair.i]) / pair.distance;
+/// What the laws ask of the two bubbles of each pair, column by column.
+struct PairColumns {
+  using Column = PairForces::Column;
+  Column ri, rj;    ///< radii [m]
+  Column mi, mj;    ///< inertia [kg]
+  Column wetness;   ///< of the pair [-]
+  Column distance;  ///< [m]
+  Column filmArea;  ///< [m^2], 0 without a film
+  Column hasFilm;   ///< 1 or 0
+
+  PairColumns(const PairForces::Foam& foam, std::size_t first, std::size_t count,
+              std::array<Column, 3>& apart) {
+    const BubbleStore& bubbles = foam.bubbles;
+    for (std::size_t k = 0; k < count; ++k) {
+      const OverlapPair& pair = foam.topology.overlaps[first + k];
+      const bool film = pair.film >= 0;
+      ri[k] = bubbles.radius[pair.i], rj[k] = bubbles.radius[pair.j];
+      mi[k] = foam.mass[pair.i], mj[k] = foam.mass[pair.j];
+      wetness[k] = 0.5 * (bubbles.wetness[pair.i] + bubbles.wetness[pair.j]);
+      distance[k] = pair.distance;
+      filmArea[k] = film ? foam.topology.films[pair.film].area : 0;
+      hasFilm[k] = film;
+      for (int axis = 0; axis < 3; ++axis)
+        apart[axis][k] = bubbles.position[pair.j][axis] - bubbles.position[pair.i][axis];
+    }
+    for (std::size_t k = count; k < PairForces::kMost; ++k) fill(k, apart);
+  }
+
+  /// A pair that takes the place of none.
+  void fill(std::size_t k, std::array<Column, 3>& apart) {
+    ri[k] = rj[k] = mi[k] = mj[k] = wetness[k] = distance[k] = 1, filmArea[k] = hasFilm[k] = 0;
+    for (Column& column : apart) column[k] = 0;
+  }
+};
+
+/// Gives pairs whose centres coincide a direction.
+void partCoincident(const PairForces::Foam& foam, const PairColumns& of, std::size_t first, std::size_t count,
+                    PairForces& forces) {
+  for (std::size_t k = 0; k < count; ++k) {
+    if (of.distance[k] > kCoincident * std::max(of.ri[k], of.rj[k])) continue;
+    const OverlapPair& pair = foam.topology.overlaps[first + k];
+    const std::vector<std::uint64_t>& id = foam.bubbles.id;
+    const Eigen::Vector3d drawn = drawnDirection(foam.params.seed, id[pair.i], id[pair.j]);
+    for (int axis = 0; axis < 3; ++axis) forces.direction[axis][k] = drawn[axis];
+  }
+}
+
+/// The response of bubbles that hold their volumes.
+void stiffenSqueezed(const PairForces::Foam& foam, const PairColumns& of, std::size_t first,
+                     std::size_t count, PairForces& forces) {
+  const FoamTopology& topology = foam.topology;
+  for (std::size_t k = 0; k < count; ++k) {
+    const OverlapPair& pair = topology.overlaps[first + k];
+    if (pair.film < 0) continue;
+    const SqueezedBubble i = {of.ri[k], topology.filmArea[pair.i], topology.freeArea[pair.i]};
+    const SqueezedBubble j = {of.rj[k], topology.filmArea[pair.j], topology.freeArea[pair.j]};
+    forces.along[k] *= 1 + volumeResponse(i, j, of.wetness[k]);
+  }
 }
 
 }  // namespace
 
-PairForce pairForce(const FoamParams& params, const BubbleStore& bubbles, const FoamTopology& topology,
-                    const std::vector<double>& mass, const OverlapPair& pair) {
-  const double ri = bubbles.radius[pair.i], rj = bubbles.radius[pair.j];
-  const double stiffness = springStiffness(params, ri, rj);
-  const double wetness = 0.5 * (bubbles.wetness[pair.i] + bubbles.wetness[pair.j]);
-  const double filmArea = pair.film >= 0 ? topology.films[pair.film].area : 0;
-  const PairSpring spring = strongSpring(stiffness, ri, rj, wetness, pair.distance, filmArea);
-  PairForce force;
-  force.direction = pairDirection(params, bubbles, pair);
-  force.tension = spring.tension, force.along = spring.along, force.across = spring.across;
-  if (pair.film >= 0 && holdsVolumes(params)) {
-    const auto squeezed = [&](std::int32_t b) {
-      return SqueezedBubble{bubbles.radius[b], topology.filmArea[b], topology.freeArea[b]};
-    };
-    force.along *= 1 + volumeResponse(squeezed(pair.i), squeezed(pair.j), wetness);
+void PairForces::find(const Foam& foam, std::size_t first, std::size_t count) {
+  const PairColumns of(foam, first, count, direction);
+  const SpringLaw spring = foam.spring;
+  const double zeta = foam.params.contactDamping;
+  for (std::size_t k = 0; k < kMost; ++k) {
+    const double stiffness = spring(of.ri[k], of.rj[k]);
+    const PairSpring pull =
+        strongSpring(stiffness, of.ri[k], of.rj[k], of.wetness[k], of.distance[k], of.filmArea[k]);
+    tension[k] = pull.tension, along[k] = pull.along, across[k] = pull.across;
+    damping[k] = of.hasFilm[k] * contactDamping(zeta, stiffness, of.mi[k], of.mj[k]);
+    for (Column& column : direction) column[k] /= of.distance[k];
   }
-  if (pair.film >= 0)
-    force.damping = contactDamping(params.contactDamping, stiffness, mass[pair.i], mass[pair.j]);
-  return force;
+  partCoincident(foam, of, first, count, *this);
+  if (holdsVolumes(foam.params)) stiffenSqueezed(foam, of, first, count, *this);
 }
 
 }  // namespace spume::foam
