@@ -22,8 +22,10 @@ bool movesWithOthers(const BlockSystem& a, const SweptSystem& swept, std::size_t
   return 2 * a.own[i].trace() < swept.diagonal[swept.placeOf(i)].trace();
 }
 
-Eigen::Matrix3d matrixOf(const CouplingBlock& block) {
-  return block.along * block.along.transpose() + block.across * Eigen::Matrix3d::Identity();
+SymmetricSum matrixOf(const CouplingBlock& block) {
+  SymmetricSum matrix;
+  matrix.add(DoubleQuad{block.along.x(), block.along.y(), block.along.z(), block.across});
+  return matrix;
 }
 
 }  // namespace
@@ -34,7 +36,8 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
   if (clusters_ < kLeastClusters) clusters_ = 0;
   start_.assign(n + 1, 0), cluster_.resize(n), isFree_.assign(n, 0);
   if (clusters_ == 0) return;
-  home_.resize(n);
+  home_.resize(n), firstRow_.resize(clusters_ + 1);
+  for (std::size_t g = 0; g <= clusters_; ++g) firstRow_[g] = static_cast<std::int32_t>(firstRow(g));
   forEachIndex(n, [&](std::size_t i) {
     cluster_[i] = static_cast<std::int32_t>(i * clusters_ / n);
     isFree_[i] = movesWithOthers(a, swept, i);
@@ -44,10 +47,7 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
   for (std::int32_t& start : start_) links += std::exchange(start, links);
   link_.resize(links), block_.resize(links);
   matrix_.resize(3 * clusters_, 3 * clusters_);
-  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
-    for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i) fillRow(a, swept, i);
-    sumCluster(a, g);
-  });
+  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) { fillCluster(a, swept, g); });
   invert();
 }
 
@@ -56,9 +56,10 @@ void CoarseCorrection::refresh(const BlockSystem& a, const SweptSystem& swept,
   if (clusters_ == 0) return;
   for (const std::int32_t i : rows) {
     const bool isFree = movesWithOthers(a, swept, i), was = std::exchange(isFree_[i], isFree);
-    fillRow(a, swept, i);
+    const auto ignore = [](std::int32_t, const SymmetricSum&) {};
+    fillRow(a, swept, i, ignore);
     if (isFree == was) continue;
-    for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) fillRow(a, swept, a.other[e]);
+    for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) fillRow(a, swept, a.other[e], ignore);
   }
 }
 
@@ -67,51 +68,58 @@ void CoarseCorrection::refresh(const BlockSystem& a, const SweptSystem& swept,
 template <typename Use>
 void CoarseCorrection::forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const {
   const std::int32_t home = cluster_[i];
-  Eigen::Matrix3d own = Eigen::Matrix3d::Zero(), sum = Eigen::Matrix3d::Zero();
-  if (isFree_[i]) own = a.own[i];
+  SymmetricSum own, sum;
+  if (isFree_[i]) own = SymmetricSum(a.own[i]);
   std::int32_t number = 1, running = home;
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
-    const std::int32_t j = a.other[e], c = cluster_[j];
-    if (c == home && isFree_[i] == isFree_[j]) continue;
-    const Eigen::Matrix3d block = matrixOf(a.block[e]);
-    if (c == home) {
-      own += (isFree_[i] - isFree_[j]) * block;
+    const std::int32_t j = a.other[e];
+    const bool isHome = isIn(home, j);
+    if (isHome && isFree_[i] == isFree_[j]) continue;
+    const SymmetricSum block = matrixOf(a.block[e]);
+    if (isHome) {
+      own.add(isFree_[i] - isFree_[j], block);
       continue;
     }
+    const std::int32_t c = cluster_[j];
     if (c != running && running != home) use(number++, running, sum);
-    if (c != running) running = c, sum.setZero();
-    own += isFree_[i] * block, sum -= isFree_[j] * block;
+    if (c != running) running = c, sum = {};
+    own.add(isFree_[i], block), sum.add(-isFree_[j], block);
   }
   if (running != home) use(number, running, sum);
   use(0, home, own);
 }
 
 std::int32_t CoarseCorrection::countLinks(const BlockSystem& a, std::size_t i) const {
-  std::int32_t count = 1, running = cluster_[i];
+  const std::int32_t home = cluster_[i];
+  std::int32_t count = 1, running = home;
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
+    if (isIn(home, a.other[e])) continue;
     const std::int32_t c = cluster_[a.other[e]];
-    if (c != cluster_[i] && c != running) ++count, running = c;
+    if (c != running) ++count, running = c;
   }
   return count;
 }
 
-void CoarseCorrection::fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i) {
+/// Also calls use(cluster, block) for each link.
+template <typename Use>
+void CoarseCorrection::fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i,
+                               const Use& use) {
   const std::int32_t k = swept.placeOf(i);
   home_[k] = static_cast<std::int32_t>(clusterOf(i));
-  forEachLink(a, i, [&](std::int32_t number, std::int32_t c, const Eigen::Matrix3d& block) {
+  forEachLink(a, i, [&](std::int32_t number, std::int32_t c, const SymmetricSum& block) {
     link_[start_[k] + number] = c, block_[start_[k] + number] = SymmetricBlock(block);
+    use(c, block);
   });
 }
 
-/// Its columns of Z^T A Z; those of a cluster in which nothing is free stand apart.
-void CoarseCorrection::sumCluster(const BlockSystem& a, std::size_t g) {
+/// Its rows, and its columns of Z^T A Z; those of a cluster in which nothing is free stand apart.
+void CoarseCorrection::fillCluster(const BlockSystem& a, const SweptSystem& swept, std::size_t g) {
   auto columns = matrix_.middleCols<3>(static_cast<Eigen::Index>(3 * g));
   columns.setZero();
   for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i)
-    if (isFree_[i])
-      forEachLink(a, i, [&](std::int32_t, std::int32_t c, const Eigen::Matrix3d& block) {
-        columns.middleRows<3>(3 * c) += block;
-      });
+    fillRow(a, swept, i, [&](std::int32_t c, const SymmetricSum& block) {
+      if (isFree_[i]) columns.middleRows<3>(3 * c) += block.matrix();
+    });
   auto own = columns.middleRows<3>(static_cast<Eigen::Index>(3 * g));
   if (own.isZero(0)) own.setIdentity();
 }
@@ -134,10 +142,12 @@ void CoarseCorrection::invert() {
 }
 
 void CoarseCorrection::sumUp(const Vectors3& b, Eigen::VectorXd& sums) const {
-  sums.setZero(3 * clusters_);
+  sums.resize(3 * clusters_);
   tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i)
-      if (isFree_[i]) sums.segment<3>(3 * g) += b[i];
+      if (isFree_[i]) sum += b[i];
+    sums.segment<3>(3 * g) = sum;
   });
 }
 

@@ -55,15 +55,19 @@ class CoarseCorrection {
   template <typename Use>
   void forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const;
   std::int32_t countLinks(const BlockSystem& a, std::size_t i) const;
-  void fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i);
-  void sumCluster(const BlockSystem& a, std::size_t g);
+  template <typename Use>
+  void fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i, const Use& use);
+  void fillCluster(const BlockSystem& a, const SweptSystem& swept, std::size_t g);
   void invert();
   /// The rows of cluster g of the BlockSystem are firstRow(g) .. firstRow(g + 1) - 1.
   std::size_t firstRow(std::size_t g) const { return (g * cluster_.size() + clusters_ - 1) / clusters_; }
+  /// Whether row j of the BlockSystem belongs to cluster g.
+  bool isIn(std::int32_t g, std::int32_t j) const { return j >= firstRow_[g] && j < firstRow_[g + 1]; }
 
   std::size_t clusters_ = 0;
-  std::vector<std::int32_t> cluster_;  ///< by row of the BlockSystem
-  std::vector<std::uint8_t> isFree_;   ///< whether it moves with its cluster
+  std::vector<std::int32_t> cluster_;   ///< by row of the BlockSystem
+  std::vector<std::int32_t> firstRow_;  ///< by cluster, and n
+  std::vector<std::uint8_t> isFree_;    ///< whether it moves with its cluster
   /// A Z by rows as swept: of each row first its own cluster, then others, some of them twice.
   std::vector<std::int32_t> start_, link_;
   std::vector<SymmetricBlock> block_;

@@ -1,27 +1,24 @@
 #include "foam/incomplete_cholesky.h"
 
-#include <Eigen/Cholesky>
+#include <cmath>
 
 #include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
 
-/// B M B with B = a a^T + c I.
-Eigen::Matrix3d sandwich(const SweptSystem::Coupling& coupling, const Eigen::Matrix3d& m) {
-  const Eigen::Vector3d a = coupling.head<3>().cast<double>(), ma = m * a;
-  const double c = coupling.w();
-  const Eigen::Matrix3d mixed = a * ma.transpose();
-  return a.dot(ma) * a * a.transpose() + c * (mixed + mixed.transpose()) + c * c * m;
-}
-
-/// The inverse of a lower triangular matrix.
-Eigen::Matrix3d inverseOf(const Eigen::Matrix3d& l) {
-  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k) g(k, k) = 1 / l(k, k);
-  g(1, 0) = -l(1, 0) * g(0, 0) * g(1, 1), g(2, 1) = -l(2, 1) * g(1, 1) * g(2, 2);
-  g(2, 0) = -(l(2, 0) * g(0, 0) + l(2, 1) * g(1, 0)) * g(2, 2);
-  return g;
+/// The inverse of the lower triangular L with L L^T = d, into `g`; false where d is not positive definite.
+bool invertFactor(const Eigen::Matrix3d& d, Eigen::Matrix3d& g) {
+  const double xx = d(0, 0);
+  g.setZero();
+  g(0, 0) = 1 / std::sqrt(xx);
+  const double yx = d(1, 0) * g(0, 0), zx = d(2, 0) * g(0, 0), yy = d(1, 1) - yx * yx;
+  g(1, 1) = 1 / std::sqrt(yy);
+  const double zy = (d(2, 1) - zx * yx) * g(1, 1), zz = d(2, 2) - zx * zx - zy * zy;
+  g(2, 2) = 1 / std::sqrt(zz);
+  g(1, 0) = -yx * g(0, 0) * g(1, 1), g(2, 1) = -zy * g(1, 1) * g(2, 2);
+  g(2, 0) = -(zx * g(0, 0) + zy * g(1, 0)) * g(2, 2);
+  return xx > 0 && yy > 0 && zz > 0;
 }
 
 }  // namespace
@@ -31,10 +28,10 @@ void IncompleteCholesky::factor(Crew& crew, const SweptSystem& a) {
   inverse_.resize(a.size());
   const auto behind = static_cast<std::int32_t>(a.size()) + 1;
   sweepForth(crew, a, [&](std::size_t, std::size_t k) {
-    Eigen::Matrix3d d = a.diagonal[k];
+    SymmetricSum d(a.diagonal[k]);
     for (std::int32_t e = a.row[k].behind; e < a.row[k].beyond; ++e)
-      d -= sandwich(a.known.block[e], inverse_[a.known.other[e] - behind]);
-    setPivot(a, k, d);
+      d.subtractSandwich(a.known.block[e], inverse_[a.known.other[e] - behind]);
+    setPivot(a, k, d.matrix());
   });
 }
 
@@ -49,11 +46,11 @@ void IncompleteCholesky::refresh(const SweptSystem& a, const std::vector<std::in
 /// own block, the diagonal does instead: any positive definite D makes a factor.
 void IncompleteCholesky::setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d) {
   pivot_[k] = d, diagonal_[k] = a.diagonal[k];
-  Eigen::LLT<Eigen::Matrix3d> cholesky(d);
-  if (cholesky.info() != Eigen::Success) cholesky.compute(pivot_[k] = a.diagonal[k]);
-  scale[k] = TriangularBlock(inverseOf(cholesky.matrixL()));
-  const Eigen::Matrix3d g = scale[k].matrix();
-  inverse_[k].noalias() = g.transpose() * g;
+  Eigen::Matrix3d g;
+  if (!invertFactor(d, g)) invertFactor(pivot_[k] = a.diagonal[k], g);
+  scale[k] = TriangularBlock(g);
+  g = scale[k].matrix();
+  inverse_[k] = SymmetricSum(g.transpose() * g);
   excess[k] = SymmetricBlock(g * a.diagonal[k] * g.transpose() - 2 * Eigen::Matrix3d::Identity());
 }
 

@@ -30,7 +30,7 @@ struct IncompleteCholesky {
   void setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d);
 
   std::vector<Eigen::Matrix3d> pivot_, diagonal_;  ///< D and A_ii as last set [kg]
-  std::vector<Eigen::Matrix3d> inverse_;           ///< D^-1 as sweeps apply it, G^T G [1/kg]
+  std::vector<SymmetricSum> inverse_;              ///< D^-1 as sweeps apply it, G^T G [1/kg]
 };
 
 }  // namespace spume::foam

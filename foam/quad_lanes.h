@@ -38,6 +38,11 @@ inline Eigen::Vector4f toVector(const Quad& quad) {
 /// Adds in double precision. By reference: without AVX functions do not return vectors of this size.
 inline void addTo(DoubleQuad& sum, const Quad& x) { sum += __builtin_convertvector(x, DoubleQuad); }
 
+/// In double precision.
+inline void widen(const Eigen::Vector4f& from, DoubleQuad& to) {
+  to = __builtin_convertvector(loadQuad(from), DoubleQuad);
+}
+
 /// kQuads quads that lie one after the other.
 inline QuadLanes loadQuads(const Eigen::Vector4f* from) {
   QuadLanes lanes;

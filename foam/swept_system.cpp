@@ -2,11 +2,24 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
+#include <cstring>
 
 #include "foam/parallel.h"
 
 namespace spume::foam {
+namespace {
+
+constexpr std::size_t kOwnWork = 6;  ///< of a row without couplings, in couplings
+
+/// In single precision.
+SweptSystem::Coupling rounded(const CouplingBlock& block) {
+  static_assert(sizeof(CouplingBlock) == sizeof(DoubleQuad));
+  DoubleQuad quad;
+  std::memcpy(&quad, &block, sizeof quad);
+  return toVector(__builtin_convertvector(quad, Quad));
+}
+
+}  // namespace
 
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
@@ -35,40 +48,43 @@ void SweptSystem::cutBlocks(const BlockSystem& a, bool sweeps) {
   const bool hasBorders = sweeps && blocks > 1;
   blocks_.resize(hasBorders ? 2 * most : most);
   for (auto& block : blocks_) block.clear();
-  blockOf_.resize(n), isBorder_.assign(n, 0), rows_.resize(n);
-  std::iota(rows_.begin(), rows_.end(), 0);
-  cut(a, rows_, 0, blocks);
-  if (hasBorders) {
-    findBorders(a);
-    cut(a, rows_, most, blocks);
-  }
+  firstBorder_ = static_cast<std::uint32_t>(most);
+  cutAll(a, blocks);
+  if (hasBorders) findBorders(a), cutBorders(a, blocks);
   for (std::size_t i = 0; i < n; ++i) blocks_[blockOf_[i]].push_back(static_cast<std::int32_t>(i));
 }
 
-/// Into rows_: those with a neighbour in a later block, without which no two blocks touch.
+/// Those with a neighbour in a later block, without which no two blocks touch.
 void SweptSystem::findBorders(const BlockSystem& a) {
+  isBorder_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) {
     const auto isLater = [&](std::int32_t j) { return blockOf_[j] > blockOf_[i]; };
     isBorder_[i] = std::any_of(a.other.begin() + a.start[i], a.other.begin() + a.start[i + 1], isLater);
   });
-  rows_.clear();
+  borders_.clear();
   for (std::size_t i = 0; i < a.size(); ++i)
-    if (isBorder_[i]) rows_.push_back(static_cast<std::int32_t>(i));
+    if (isBorder_[i]) borders_.push_back(static_cast<std::int32_t>(i));
 }
 
-/// Cuts `rows` into blocks of equal work, numbered from `first`: a bubble among others costs several times
-/// one that is alone.
-void SweptSystem::cut(const BlockSystem& a, const std::vector<std::int32_t>& rows, std::size_t first,
-                      std::size_t blocks) {
-  constexpr std::size_t kOwnWork = 6;  // of a row without couplings, in couplings
+/// Cuts all rows into blocks of equal work: a bubble among others costs several times one that is alone.
+void SweptSystem::cutAll(const BlockSystem& a, std::size_t blocks) {
+  const auto workBefore = [&](std::size_t i) { return kOwnWork * i + static_cast<std::size_t>(a.start[i]); };
+  const std::size_t all = workBefore(a.size());
+  blockOf_.resize(a.size());
+  forEachIndex(a.size(), [&](std::size_t i) {
+    blockOf_[i] = static_cast<std::uint32_t>(workBefore(i) * blocks / all);
+  });
+}
+
+/// The same with border rows alone.
+void SweptSystem::cutBorders(const BlockSystem& a, std::size_t blocks) {
   const auto workOf = [&](std::int32_t i) {
     return kOwnWork + static_cast<std::size_t>(a.start[i + 1] - a.start[i]);
   };
-  std::size_t all = 0, work = 0, block = 0;
-  for (const std::int32_t i : rows) all += workOf(i);
-  for (const std::int32_t i : rows) {
-    if (work * blocks >= (block + 1) * all && block + 1 < blocks) ++block;
-    blockOf_[i] = static_cast<std::uint32_t>(first + block);
+  std::size_t all = 0, work = 0;
+  for (const std::int32_t i : borders_) all += workOf(i);
+  for (const std::int32_t i : borders_) {
+    blockOf_[i] = firstBorder_ + static_cast<std::uint32_t>(work * blocks / all);
     work += workOf(i);
   }
 }
@@ -95,8 +111,9 @@ void SweptSystem::orderRows() {
 SweptSystem::Kind SweptSystem::kindOf(std::int32_t source, std::int32_t other, bool sweeps) const {
   if (!sweeps) return Kind::beyond;
   if (blockOf_[other] == blockOf_[source]) return other > source ? Kind::ahead : Kind::behind;
-  if (isBorder_[other] == isBorder_[source]) return Kind::beyond;
-  return isBorder_[other] ? Kind::ahead : Kind::behind;
+  const bool isBorder = blockOf_[source] >= firstBorder_, meetsBorder = blockOf_[other] >= firstBorder_;
+  if (meetsBorder == isBorder) return Kind::beyond;
+  return meetsBorder ? Kind::ahead : Kind::behind;
 }
 
 /// How many couplings of each kind a row has.
@@ -118,15 +135,15 @@ void SweptSystem::copyRow(const BlockSystem& a, std::size_t k, bool sweeps) {
     const std::int32_t to = place[static_cast<int>(kind)]++;
     Couplings& of = kind == Kind::ahead ? ahead : known;
     of.other[to] = place_[a.other[e]] + (kind == Kind::behind ? nobody + 1 : 0);
-    of.block[to] << a.block[e].along.cast<float>(), static_cast<float>(a.block[e].across);
+    of.block[to] = rounded(a.block[e]);
   }
 }
 
 void SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) {
-  Eigen::Matrix3d sum = a.own[source[k]];
-  for (std::int32_t e = row[k].ahead; e < row[k + 1].ahead; ++e) sum += matrixOf(ahead.block[e]);
-  for (std::int32_t e = row[k].behind; e < row[k + 1].behind; ++e) sum += matrixOf(known.block[e]);
-  diagonal[k] = sum;
+  SymmetricSum sum(a.own[source[k]]);
+  for (std::int32_t e = row[k].ahead; e < row[k + 1].ahead; ++e) sum.add(ahead.block[e]);
+  for (std::int32_t e = row[k].behind; e < row[k + 1].behind; ++e) sum.add(known.block[e]);
+  diagonal[k] = sum.matrix();
 }
 
 const std::vector<std::int32_t>& SweptSystem::refresh(const BlockSystem& a,

@@ -37,10 +37,6 @@ struct SweptSystem {
 
   /// along [kg^1/2] and, last, across [kg] of a CouplingBlock.
   using Coupling = Eigen::Vector4f;
-  static Eigen::Matrix3d matrixOf(const Coupling& coupling) {
-    const Eigen::Vector3d along = coupling.head<3>().cast<double>();
-    return along * along.transpose() + static_cast<double>(coupling.w()) * Eigen::Matrix3d::Identity();
-  }
 
   /// Couplings one row after the other. Behind the last come kPadding of 0 with row n, for whole registers
   /// to read.
@@ -90,8 +86,8 @@ struct SweptSystem {
   enum class Kind : std::uint8_t { ahead, behind, beyond };
   void cutBlocks(const BlockSystem& a, bool sweeps);
   void findBorders(const BlockSystem& a);
-  void cut(const BlockSystem& a, const std::vector<std::int32_t>& rows, std::size_t first,
-           std::size_t blocks);
+  void cutAll(const BlockSystem& a, std::size_t blocks);
+  void cutBorders(const BlockSystem& a, std::size_t blocks);
   void orderRows();
   Kind kindOf(std::int32_t source, std::int32_t other, bool sweeps) const;
   Row countRow(const BlockSystem& a, std::size_t k, bool sweeps) const;
@@ -102,8 +98,9 @@ struct SweptSystem {
   std::vector<std::size_t> groupStart_ = {0};
   std::vector<std::vector<std::int32_t>> blocks_;  ///< rows of the BlockSystem by block, kAbreast a group
   std::vector<std::int32_t> place_;                ///< row of each of the BlockSystem's
-  std::vector<std::int32_t> rows_;                 ///< to be cut
+  std::vector<std::int32_t> borders_;              ///< border rows of the BlockSystem
   std::vector<std::uint8_t> isBorder_;             ///< by rows of the BlockSystem
+  std::uint32_t firstBorder_ = 0;                  ///< block of border rows
   std::vector<std::uint32_t> blockOf_;             ///< block of each of the BlockSystem's rows
   std::vector<std::int32_t> refreshed_;            ///< rows of the last refresh()
 };

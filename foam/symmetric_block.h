@@ -7,6 +7,54 @@
 
 namespace spume::foam {
 
+/// A symmetric 3 x 3 matrix in double precision, laid out in the same way to be summed up; fourth numbers
+/// have no meaning.
+struct SymmetricSum {
+  DoubleQuad straight = {}, crossed = {};
+
+  SymmetricSum() = default;
+  explicit SymmetricSum(const Eigen::Matrix3d& m)
+      : straight{m(0, 0), m(1, 1), m(2, 2), 0}, crossed{m(0, 1), m(0, 2), m(1, 2), 0} {}
+
+  Eigen::Matrix3d matrix() const {
+    Eigen::Matrix3d m;
+    m << straight[0], crossed[0], crossed[1], crossed[0], straight[1], crossed[2], crossed[1], crossed[2],
+        straight[2];
+    return m;
+  }
+  void add(double factor, const SymmetricSum& other) {
+    straight += factor * other.straight, crossed += factor * other.crossed;
+  }
+  /// Adds B = a a^T + c I, given (a, c).
+  void add(const Eigen::Vector4f& coupling) {
+    DoubleQuad b;
+    widen(coupling, b);
+    add(b);
+  }
+  void add(const DoubleQuad& b) {
+    straight += b * b + __builtin_shufflevector(b, b, 3, 3, 3, 3);
+    crossed += __builtin_shufflevector(b, b, 0, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 2, 3);
+  }
+  /// Takes B M B away: a t^T + t a^T + c^2 M with t = (a . M a) a / 2 + c M a.
+  void subtractSandwich(const Eigen::Vector4f& coupling, const SymmetricSum& m) {
+    DoubleQuad b;
+    widen(coupling, b);
+    const DoubleQuad x = __builtin_shufflevector(b, b, 0, 0, 1, 3),
+                     y = __builtin_shufflevector(b, b, 1, 2, 2, 3);
+    const DoubleQuad image =
+        m.straight * b +
+        __builtin_shufflevector(m.crossed, m.crossed, 0, 0, 1, 3) *
+            __builtin_shufflevector(b, b, 1, 0, 0, 3) +
+        __builtin_shufflevector(m.crossed, m.crossed, 1, 2, 2, 3) * __builtin_shufflevector(b, b, 2, 2, 1, 3);
+    const DoubleQuad products = b * image;
+    const double c = b[3], half = 0.5 * (products[0] + products[1] + products[2]);
+    const DoubleQuad t = half * b + c * image;
+    straight -= 2 * b * t + c * c * m.straight;
+    crossed -= x * __builtin_shufflevector(t, t, 1, 2, 2, 3) + y * __builtin_shufflevector(t, t, 0, 0, 1, 3) +
+               c * c * m.crossed;
+  }
+};
+
 /// A symmetric 3 x 3 matrix by its six numbers, laid out so that a product is three multiplications of whole
 /// quads.
 struct SymmetricBlock {
@@ -14,6 +62,9 @@ struct SymmetricBlock {
   Eigen::Vector4f crossed;   ///< xy, xz, yz, 0
 
   SymmetricBlock() = default;
+  explicit SymmetricBlock(const SymmetricSum& m)
+      : straight(Eigen::Vector4d(m.straight[0], m.straight[1], m.straight[2], 0).cast<float>()),
+        crossed(Eigen::Vector4d(m.crossed[0], m.crossed[1], m.crossed[2], 0).cast<float>()) {}
   explicit SymmetricBlock(const Eigen::Matrix3d& m)
       : straight(Eigen::Vector4d(m(0, 0), m(1, 1), m(2, 2), 0).cast<float>()),
         crossed(Eigen::Vector4d(m(0, 1), m(0, 2), m(1, 2), 0).cast<float>()) {}

@@ -32,6 +32,11 @@ BlockSystem lattice() {
   return a;
 }
 
+Eigen::Matrix3d matrixOf(const SweptSystem::Coupling& coupling) {
+  const Eigen::Vector3d along = coupling.head<3>().cast<double>();
+  return along * along.transpose() + static_cast<double>(coupling.w()) * Eigen::Matrix3d::Identity();
+}
+
 struct Factor {
   SweptSystem swept;
   IncompleteCholesky cholesky;
@@ -50,7 +55,7 @@ struct Factor {
     const auto behind = static_cast<std::int32_t>(swept.size()) + 1;
     Eigen::Matrix3d d = swept.diagonal[k];
     for (std::int32_t e = swept.row[k].behind; e < swept.row[k].beyond; ++e) {
-      const Eigen::Matrix3d b = SweptSystem::matrixOf(swept.known.block[e]);
+      const Eigen::Matrix3d b = matrixOf(swept.known.block[e]);
       d -= b * inverse(static_cast<std::size_t>(swept.known.other[e] - behind)) * b;
     }
     return d;
