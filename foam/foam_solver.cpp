@@ -97,6 +97,7 @@ struct FoamSolver::Internals {
   Attraction attraction;
   Vectors3 pull;
   Eigen::VectorXd phiEnd, psiEnd;
+  Vectors3 dragImpulse;  ///< of each row
   std::vector<DragImpulse> impulses;
   /// The bubbles while they change, in space order: what is near in the foam is near in memory. The caller's
   /// stay whole until the end.
@@ -181,11 +182,11 @@ void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
 }
 
 void FoamSolver::Internals::noteImpulses(double dt) {
+  dragImpulse.resize(next.size());
+  forEachIndex(next.size(), [&](std::size_t i) { dragImpulse[i] = integrator.dragImpulse(i, dt); });
   impulses.clear();
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    const Eigen::Vector3d impulse = integrator.dragImpulse(i, dt);
-    if (!impulse.isZero(0)) impulses.push_back({next.position[i], impulse, integrator.slip(i)});
-  }
+  for (std::size_t i = 0; i < next.size(); ++i)
+    if (!dragImpulse[i].isZero(0)) impulses.push_back({next.position[i], dragImpulse[i], integrator.slip(i)});
 }
 
 void FoamSolver::Internals::sampleEnd(const LiquidSampler& liquid) {

@@ -115,8 +115,6 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
   system_.start = neighbours.start;
   system_.other.resize(neighbours.other.size()), system_.block.resize(neighbours.other.size());
   forEachIndex(n, [&](std::size_t i) { assembleRow(i, neighbours); });
-  // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
-  forEachIndex(n, [&](std::size_t i) { change_[i] = lone_[i].velocity - motion_[i].velocity; });
   contacts_.begin(walls, motion_, mass_, dt, change_, system_, impulse_);
   const SolveReport report = solveWithContacts(dt);
   if (!report.converged) failToConverge(report, n, dt);
@@ -192,6 +190,8 @@ void Integrator::assembleRow(std::size_t i, const Neighbours& neighbours) {
     size += share.size;
   }
   system_.own[i] = motion.matrix, impulse_[i] = impulse, impulseScale_[i] = size;
+  // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
+  change_[i] = lone_[i].velocity - motion.velocity;
 }
 
 double Integrator::smallestGoal() const {

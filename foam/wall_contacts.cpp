@@ -54,11 +54,10 @@ void WallContacts::describe(const FoamParams& params, const Surroundings& around
 void WallContacts::begin(const std::vector<NearWalls>& walls, const std::vector<LinearMotion>& motion,
                          const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
                          Vectors3& impulse) {
-  walls_.resize(walls.size()), room_.resize(walls.size()), round_ = 0;
+  walls_ = walls.data(), room_.resize(walls.size()), round_ = 0;
   closed_.assign(grip_.size(), 0), brake_.assign(grip_.size(), 0.0);
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
-    walls_[i] = walls[i];
     const Vector3d velocity = motion[i].velocity + change[i];
     for (int k = 0; k < walls_[i].count; ++k)
       updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);

@@ -27,7 +27,8 @@ class WallContacts {
 
   /// Adds contacts, adhesion and brakes to the system, for the walls found on the way of `motion`, as suits
   /// the velocities motion + change, of which it takes the slip of what is stuck: a start from which the
-  /// stiff hold of one bubble does not set the scale of the residual of all.
+  /// stiff hold of one bubble does not set the scale of the residual of all. `walls` are looked at by
+  /// update() too.
   void begin(const std::vector<NearWalls>& walls, const std::vector<LinearMotion>& motion,
              const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
              Vectors3& impulse);
@@ -59,7 +60,7 @@ class WallContacts {
   void setBrake(std::size_t i, double brake, const Eigen::Vector3d& predicted, BlockSystem& system,
                 Vectors3& impulse);
 
-  std::vector<NearWalls> walls_;
+  const NearWalls* walls_ = nullptr;  ///< of each bubble, the caller's
   std::vector<Grip> grip_;
   int round_ = 0;                     ///< of the solve
   std::vector<double> brake_;         ///< friction along the first wall: impulse per slip [kg]
