@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -147,8 +148,12 @@ SolveReport Integrator::solveWithContacts(double dt) {
 void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topology, double dt) {
   constexpr std::size_t kMost = PairForces::kMost;
   const std::size_t pairs = topology.overlaps.size();
-  const PairForces::Foam foam = {params_, SpringLaw(params_), bubbles, topology, mass_};
-  pairShare_.resize(pairs);
+  paired_.resize(bubbles.size()), pairShare_.resize(pairs);
+  forEachIndex(paired_.size(), [&](std::size_t i) {
+    const Eigen::Vector3d &x = bubbles.position[i], &v = motion_[i].velocity;
+    paired_[i] = {{x.x(), x.y(), x.z()}, {v.x(), v.y(), v.z()}, bubbles.radius[i], mass_[i]};
+  });
+  const PairForces::Foam foam = {params_, SpringLaw(params_), bubbles, topology, paired_};
   const tbb::blocked_range<std::size_t> groups(0, (pairs + kMost - 1) / kMost, kGrain / kMost);
   tbb::parallel_for(groups, [&](const auto& range) {
     PairForces forces;
@@ -160,20 +165,29 @@ void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topo
   });
 }
 
-/// Of pairs `first` .. `first` + `count` - 1, whose forces are known.
+/// Of pairs `first` .. `first` + `count` - 1, whose forces are known. dt^2 K + dt C with K = along n n^T +
+/// across (I - n n^T): the turning part is split off so that both terms stay positive; along >= across
+/// always.
 void Integrator::setShares(const PairForces& forces, const FoamTopology& topology, std::size_t first,
                            std::size_t count, double dt) {
-  // dt^2 K + dt C with K = along n n^T + across (I - n n^T): the turning part is split off so that both
-  // terms stay positive; along >= across always.
-  PairForces::Column root;
-  for (std::size_t k = 0; k < root.size(); ++k) root[k] = dt * std::sqrt(forces.along[k] - forces.across[k]);
+  std::array<PairForces::Column, 3> along, impulse;
+  PairForces::Column across;
+  const auto &n = forces.direction, &v = forces.approach;
+  for (std::size_t k = 0; k < across.size(); ++k) {
+    const double root = dt * std::sqrt(forces.along[k] - forces.across[k]);
+    const double closing = root * (n[0][k] * v[0][k] + n[1][k] * v[1][k] + n[2][k] * v[2][k]);
+    const double push = dt * forces.tension[k] - root * closing;
+    across[k] = dt * (dt * forces.across[k] + forces.damping[k]);
+    for (int axis = 0; axis < 3; ++axis) {
+      along[axis][k] = root * n[axis][k];
+      impulse[axis][k] = push * n[axis][k] - across[k] * v[axis][k];
+    }
+  }
   for (std::size_t k = 0; k < count; ++k) {
-    const OverlapPair& pair = topology.overlaps[first + k];
-    const Eigen::Vector3d direction(forces.direction[0][k], forces.direction[1][k], forces.direction[2][k]);
-    const CouplingBlock block = {root[k] * direction, dt * (dt * forces.across[k] + forces.damping[k])};
-    const Eigen::Vector3d approach = motion_[pair.i].velocity - motion_[pair.j].velocity;
-    pairShare_[first + k] = {block, dt * forces.tension[k] * direction - block.times(approach),
-                             dt * (std::abs(forces.tension[k]) + forces.along[k] * pair.distance)};
+    const double distance = topology.overlaps[first + k].distance;
+    pairShare_[first + k] = {{{along[0][k], along[1][k], along[2][k]}, across[k]},
+                             {impulse[0][k], impulse[1][k], impulse[2][k]},
+                             dt * (std::abs(forces.tension[k]) + forces.along[k] * distance)};
   }
 }
 

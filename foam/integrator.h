@@ -74,6 +74,7 @@ class Integrator {
   std::vector<LoneBubble> lone_;
   std::vector<double> mass_, immersed_;
   std::vector<LinearMotion> motion_;
+  std::vector<PairedBubble> paired_;
   std::vector<PairShare> pairShare_;
   BlockSystem system_;
   Vectors3 impulse_, change_, velocity_;

@@ -33,28 +33,29 @@ struct PairColumns {
   Column filmArea;  ///< [m^2], 0 without a film
   Column hasFilm;   ///< 1 or 0
 
-  PairColumns(const PairForces::Foam& foam, std::size_t first, std::size_t count,
-              std::array<Column, 3>& apart) {
-    const BubbleStore& bubbles = foam.bubbles;
+  PairColumns(const PairForces::Foam& foam, std::size_t first, std::size_t count, PairForces& forces) {
+    const std::vector<double>& own = foam.bubbles.wetness;
     for (std::size_t k = 0; k < count; ++k) {
       const OverlapPair& pair = foam.topology.overlaps[first + k];
       const bool film = pair.film >= 0;
-      ri[k] = bubbles.radius[pair.i], rj[k] = bubbles.radius[pair.j];
-      mi[k] = foam.mass[pair.i], mj[k] = foam.mass[pair.j];
-      wetness[k] = 0.5 * (bubbles.wetness[pair.i] + bubbles.wetness[pair.j]);
+      const PairedBubble &i = foam.paired[pair.i], &j = foam.paired[pair.j];
+      ri[k] = i.radius, rj[k] = j.radius, mi[k] = i.mass, mj[k] = j.mass;
+      wetness[k] = 0.5 * (own[pair.i] + own[pair.j]);
       distance[k] = pair.distance;
       filmArea[k] = film ? foam.topology.films[pair.film].area : 0;
       hasFilm[k] = film;
-      for (int axis = 0; axis < 3; ++axis)
-        apart[axis][k] = bubbles.position[pair.j][axis] - bubbles.position[pair.i][axis];
+      for (int axis = 0; axis < 3; ++axis) {
+        forces.direction[axis][k] = j.position[axis] - i.position[axis];
+        forces.approach[axis][k] = i.velocity[axis] - j.velocity[axis];
+      }
     }
-    for (std::size_t k = count; k < PairForces::kMost; ++k) fill(k, apart);
+    for (std::size_t k = count; k < PairForces::kMost; ++k) fill(k, forces);
   }
 
   /// A pair that takes the place of none.
-  void fill(std::size_t k, std::array<Column, 3>& apart) {
+  void fill(std::size_t k, PairForces& forces) {
     ri[k] = rj[k] = mi[k] = mj[k] = wetness[k] = distance[k] = 1, filmArea[k] = hasFilm[k] = 0;
-    for (Column& column : apart) column[k] = 0;
+    for (int axis = 0; axis < 3; ++axis) forces.direction[axis][k] = forces.approach[axis][k] = 0;
   }
 };
 
@@ -86,7 +87,7 @@ void stiffenSqueezed(const PairForces::Foam& foam, const PairColumns& of, std::s
 }  // namespace
 
 void PairForces::find(const Foam& foam, std::size_t first, std::size_t count) {
-  const PairColumns of(foam, first, count, direction);
+  const PairColumns of(foam, first, count, *this);
   const SpringLaw spring = foam.spring;
   const double zeta = foam.params.contactDamping;
   for (std::size_t k = 0; k < kMost; ++k) {

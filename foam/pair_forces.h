@@ -11,6 +11,12 @@
 
 namespace spume::foam {
 
+/// What a pair asks of each of its two bubbles, in one cache line.
+struct alignas(64) PairedBubble {
+  std::array<double, 3> position, velocity;  ///< [m], that of the prediction [m/s]
+  double radius, mass;                       ///< [m], inertia [kg]
+};
+
 /// What pairs of overlapping bubbles do to each other, at the positions of the step's start. A column for
 /// each quantity: a register takes several pairs at a time, always the same ones together.
 struct PairForces {
@@ -18,6 +24,7 @@ struct PairForces {
   using Column = std::array<double, kMost>;
 
   std::array<Column, 3> direction;  ///< unit, from i to j
+  std::array<Column, 3> approach;   ///< v_i - v_j [m/s]
   Column tension;                   ///< pull on each other [N]; < 0 pushes apart
   Column along;                     ///< stiffness along `direction` [N/m], >= 0
   Column across;                    ///< stiffness against turning [N/m], >= 0
@@ -29,7 +36,7 @@ struct PairForces {
     SpringLaw spring;  ///< of `params`
     const BubbleStore& bubbles;
     const FoamTopology& topology;
-    const std::vector<double>& mass;  ///< of each bubble [kg]
+    const std::vector<PairedBubble>& paired;  ///< these bubbles once more
   };
 
   /// Strong spring and contact damping of overlaps `first` .. `first` + `count` - 1 of the topology, kMost at

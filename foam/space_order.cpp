@@ -1,11 +1,10 @@
 #include "foam/space_order.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 
 #include "foam/cell_hash.h"
 #include "foam/parallel.h"
+#include "foam/radix_sort.h"
 
 namespace spume::foam {
 namespace {
@@ -25,25 +24,25 @@ Box boundsOf(const std::vector<Eigen::Vector3d>& position) {
 }  // namespace
 
 void sortInSpace(const std::vector<Eigen::Vector3d>& position, std::vector<std::int32_t>& order) {
-  constexpr int kAxisBits = 10;  // with 32 bits of index, three of them fit one word
+  constexpr int kAxisBits = 10;  // cells of a thousandth: finer ones would change no order that matters
   order.resize(position.size());
   if (position.empty()) return;
   const Box box = boundsOf(position);
   const double size = (box.high - box.low).maxCoeff();
   const double scale = size > 0 ? (1 << kAxisBits) / size : 0;
-  std::vector<std::uint64_t> keys(position.size());
-  forEachIndex(keys.size(), [&](std::size_t i) {
+  RawBuffer<SortKey> keys, spare;
+  keys.resize(position.size()), spare.resize(position.size());
+  forEachIndex(position.size(), [&](std::size_t i) {
     const Eigen::Vector3d cell = scale * (position[i] - box.low);
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis)
       code |=
           spreadCellBits(std::min(static_cast<std::int64_t>(cell[axis]), (std::int64_t{1} << kAxisBits) - 1))
           << axis;
-    keys[i] = code << 32 | i;
+    keys[i] = {code, static_cast<std::int32_t>(i)};
   });
-  tbb::parallel_sort(keys.begin(), keys.end());
-  forEachIndex(keys.size(),
-               [&](std::size_t k) { order[k] = static_cast<std::int32_t>(keys[k] & 0xffffffff); });
+  radixSort(keys, spare, position.size(), 3 * kAxisBits);
+  forEachIndex(position.size(), [&](std::size_t k) { order[k] = keys[k].index; });
 }
 
 }  // namespace spume::foam
