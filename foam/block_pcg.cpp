@@ -1,6 +1,7 @@
 #include "foam/block_pcg.h"
 
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "foam/parallel.h"
@@ -15,6 +16,10 @@ using Eigen::Vector4f;
 /// too high, which cost half as many iterations again.
 constexpr double kNear = 10;
 constexpr int kLook = 8;
+
+/// Rounding that a residual gathers, as a share of D e: measured 0.5e-7 to 1.5e-7 on froths, 2.6e-7 on a stiff
+/// chain that moves as a whole.
+constexpr double kRounding = 3e-7;
 
 double sumOfProducts(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -51,13 +56,19 @@ BlockPcg::Result BlockPcg::improve(const SweptSystem& a, const IncompleteCholesk
   Result result = {};
   Crew::lead(a.tasks(),
              [&](Crew& crew) { result = iterate(crew, a, factor, coarse, b, norm, goal, maxIterations); });
-  forEachIndex(a.size(), [&](std::size_t k) {
-    const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
-    const std::size_t i = a.source[k], cluster = coarse.clusterOf(i);
-    x[i] += factor.scale[k].matrix().transpose() * sum;
-    if (cluster < coarse.clusters()) x[i] += clusters_.sum.segment<3>(3 * cluster);
-    if (result.reached) b[i] = image_[k].head<3>().cast<double>();
-  });
+  const double squares = reduceIndices(
+      a.size(), 0.0,
+      [&](std::size_t k) {
+        const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
+        const std::size_t i = a.source[k], cluster = coarse.clusterOf(i);
+        Eigen::Vector3d move = factor.scale[k].matrix().transpose() * sum;
+        if (cluster < coarse.clusters()) move += clusters_.sum.segment<3>(3 * cluster);
+        x[i] += move;
+        if (result.reached) b[i] = image_[k].head<3>().cast<double>();
+        return factor.scale[k].solve(sum).squaredNorm();
+      },
+      std::plus<>());
+  result.drift = kRounding * std::sqrt(squares);
   return result;
 }
 
@@ -74,7 +85,7 @@ BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const Incom
     const double guess = known.plain * std::sqrt(slope / known.slope);
     if (guess <= goal || (guess <= kNear * goal && (iterations + 1) % kLook == 0)) {
       known = look(crew, a, factor, std::exchange(length, 0));
-      if (known.plain <= goal) return {iterations, true, known.plain};
+      if (known.plain <= goal) return {iterations, true, known.plain, 0};
     }
     const double ofRows = searchBack(crew, a, factor, length, momentum);
     turnClusters(momentum);
@@ -90,7 +101,7 @@ BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const Incom
   }
   if (length != 0)
     sweepForth(crew, a, [&](std::size_t, std::size_t k) { advance(k, static_cast<float>(length)); });
-  return {iterations, false, 0};
+  return {iterations, false, 0, 0};
 }
 
 /// Sets the residual to b, all else to 0. Knows no search direction yet. Returns r . M^-1 r.

@@ -20,10 +20,11 @@ class BlockPcg {
     int iterations;
     bool reached;  ///< the goal
     double norm;   ///< |b - A e| as far as the iteration knows, if so [kg m/s]
+    double drift;  ///< by about how much it may be off: rounding of D e [kg m/s]
   };
   /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
   /// as the iteration knows, or `maxIterations`; `norm` is |b|. If it gets there, b becomes b - A e, again as
-  /// far as it knows: to about 2e-7 of |b|.
+  /// far as it knows.
   Result improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
                  double norm, double goal, int maxIterations, Vectors3& b, Vectors3& x);
 

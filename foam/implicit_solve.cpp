@@ -17,9 +17,6 @@ constexpr int kRefinements = 5;
 /// The iteration aims a little below the goal, and no further below the residual than single precision
 /// carries.
 constexpr double kAim = 0.9, kSinglePrecision = 1e-7;
-/// What the iteration knows of the residual it leaves is off by this share of the one it began with (measured
-/// on froths of 16000 and 100000: 0.6e-7 to 1.8e-7).
-constexpr double kDrift = 2e-7;
 /// A pass that does not bring the residual below this share of the last has met round-off.
 constexpr double kStalled = 0.5;
 /// A residual that rounding keeps above the goal is taken up to this share of the right-hand side.
@@ -103,7 +100,7 @@ int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal,
     const BlockPcg::Result done =
         pcg_.improve(swept_, cholesky_, coarse_, last, aim, maxIterations - iterations, residual_, x);
     iterations += done.iterations;
-    drift_ += kDrift * last;
+    drift_ += done.drift;
     if (done.reached && drift_ <= allowed)
       norm_ = done.norm;
     else

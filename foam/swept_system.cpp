@@ -23,9 +23,10 @@ SweptSystem::Coupling rounded(const CouplingBlock& block) {
 
 void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
   const std::size_t n = a.size();
+  sweeps_ = sweeps;
   cutBlocks(a, sweeps), orderRows();
   row.resize(n + 1), diagonal.resize(n);
-  forEachIndex(n, [&](std::size_t k) { row[k] = countRow(a, k, sweeps); });
+  forEachIndex(n, [&](std::size_t k) { row[k] = countRow(a, k); });
   std::int32_t inAhead = 0, inKnown = 0;
   row[n] = {};
   for (Row& r : row) {
@@ -34,7 +35,7 @@ void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
     inAhead += count.ahead, inKnown += count.behind + count.beyond;
   }
   ahead.resize(inAhead, static_cast<std::int32_t>(n)), known.resize(inKnown, static_cast<std::int32_t>(n));
-  forEachIndex(n, [&](std::size_t k) { copyRow(a, k, sweeps), sumDiagonal(a, k); });
+  forEachIndex(n, [&](std::size_t k) { copyRow(a, k), sumDiagonal(a, k); });
 }
 
 /// As many blocks for each group of inner rows and of border rows, kAbreast; the last of them may be empty.
@@ -107,34 +108,35 @@ void SweptSystem::orderRows() {
   forEachIndex(source.size(), [&](std::size_t k) { place_[source[k]] = static_cast<std::int32_t>(k); });
 }
 
-/// Of a coupling between two rows of the BlockSystem.
-SweptSystem::Kind SweptSystem::kindOf(std::int32_t source, std::int32_t other, bool sweeps) const {
-  if (!sweeps) return Kind::beyond;
-  if (blockOf_[other] == blockOf_[source]) return other > source ? Kind::ahead : Kind::behind;
-  const bool isBorder = blockOf_[source] >= firstBorder_, meetsBorder = blockOf_[other] >= firstBorder_;
-  if (meetsBorder == isBorder) return Kind::beyond;
-  return meetsBorder ? Kind::ahead : Kind::behind;
+/// Of a coupling between two rows of the BlockSystem, of which one block or the round of border rows sweeps
+/// one after the other. Without branches, which nothing could foretell.
+SweptSystem::Kind SweptSystem::kindOf(std::int32_t source, std::int32_t other) const {
+  const std::uint32_t block = blockOf_[source], otherBlock = blockOf_[other];
+  const bool inTurn = (block == otherBlock) | ((block < firstBorder_) != (otherBlock < firstBorder_));
+  const bool isEarlier = place_[other] < place_[source];
+  return static_cast<Kind>(inTurn & sweeps_ ? isEarlier : 2);
 }
 
 /// How many couplings of each kind a row has.
-SweptSystem::Row SweptSystem::countRow(const BlockSystem& a, std::size_t k, bool sweeps) const {
+SweptSystem::Row SweptSystem::countRow(const BlockSystem& a, std::size_t k) const {
   const std::int32_t i = source[k];
   std::int32_t count[3] = {};
-  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e)
-    ++count[static_cast<int>(kindOf(i, a.other[e], sweeps))];
+  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) ++count[static_cast<int>(kindOf(i, a.other[e]))];
   return {count[0], count[1], count[2]};
 }
 
 /// Couplings of one kind stay in the order of the BlockSystem.
-void SweptSystem::copyRow(const BlockSystem& a, std::size_t k, bool sweeps) {
+void SweptSystem::copyRow(const BlockSystem& a, std::size_t k) {
   const auto nobody = static_cast<std::int32_t>(a.size());
   const std::int32_t i = source[k];
   std::int32_t place[3] = {row[k].ahead, row[k].behind, row[k].beyond};
+  Couplings* const list[3] = {&ahead, &known, &known};
+  const std::int32_t shift[3] = {0, nobody + 1, 0};
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
-    const Kind kind = kindOf(i, a.other[e], sweeps);
-    const std::int32_t to = place[static_cast<int>(kind)]++;
-    Couplings& of = kind == Kind::ahead ? ahead : known;
-    of.other[to] = place_[a.other[e]] + (kind == Kind::behind ? nobody + 1 : 0);
+    const auto kind = static_cast<int>(kindOf(i, a.other[e]));
+    const std::int32_t to = place[kind]++;
+    Couplings& of = *list[kind];
+    of.other[to] = place_[a.other[e]] + shift[kind];
     of.block[to] = rounded(a.block[e]);
   }
 }

@@ -83,17 +83,18 @@ struct SweptSystem {
   const std::vector<std::int32_t>& refresh(const BlockSystem& a, const std::vector<std::int32_t>& rows);
 
  private:
-  enum class Kind : std::uint8_t { ahead, behind, beyond };
+  enum class Kind : std::uint8_t { ahead = 0, behind = 1, beyond = 2 };
   void cutBlocks(const BlockSystem& a, bool sweeps);
   void findBorders(const BlockSystem& a);
   void cutAll(const BlockSystem& a, std::size_t blocks);
   void cutBorders(const BlockSystem& a, std::size_t blocks);
   void orderRows();
-  Kind kindOf(std::int32_t source, std::int32_t other, bool sweeps) const;
-  Row countRow(const BlockSystem& a, std::size_t k, bool sweeps) const;
-  void copyRow(const BlockSystem& a, std::size_t k, bool sweeps);
+  Kind kindOf(std::int32_t source, std::int32_t other) const;
+  Row countRow(const BlockSystem& a, std::size_t k) const;
+  void copyRow(const BlockSystem& a, std::size_t k);
   void sumDiagonal(const BlockSystem& a, std::size_t k);
 
+  bool sweeps_ = false;  ///< as copy() was told
   std::size_t tasks_ = 1;
   std::vector<std::size_t> groupStart_ = {0};
   std::vector<std::vector<std::int32_t>> blocks_;  ///< rows of the BlockSystem by block, kAbreast a group

@@ -167,6 +167,29 @@ TEST(ImplicitSolve, BalancesTheResidualsByARigidShift) {
   EXPECT_LE(left.norm(), 1e-12);  // round-off of sums of order 1e3
 }
 
+TEST(ImplicitSolve, KnowsWhatIsLeftToWithinWhatIsAllowedAndEndsWithATrueResidual) {
+  const std::size_t n = 300;
+  const BlockSystem a = randomSystem(static_cast<int>(n), 1e3);
+  const Vectors3 b = randomVectors(n);
+  Vectors3 x(n, Eigen::Vector3d::Zero());
+  ImplicitSolve solver(LinearSolver::pcgIncompleteCholesky);
+  const double first = solver.begin(a, b, x), allowed = 1e-4 * first;
+  const auto distance = [&](const Vectors3& left) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += (left[i] - (b[i] - a.row(i, x))).squaredNorm();
+    return std::sqrt(sum);
+  };
+  EXPECT_TRUE(solver.solve(a, b, 1e-2 * first, 100, x, allowed).converged);
+  EXPECT_GT(distance(solver.left()), 0);  // what the iteration knows
+  EXPECT_LE(distance(solver.left()), allowed);
+  EXPECT_TRUE(solver.solve(a, b, 1e-3 * first, 100, x, 1e-2 * allowed).converged);
+  EXPECT_EQ(distance(solver.left()), 0);  // rounding alone is more than that
+  const double goal = 1e-9 * first;
+  EXPECT_TRUE(solver.solve(a, b, goal, 1000, x).converged);
+  EXPECT_LE(distance(Vectors3(n, Eigen::Vector3d::Zero())), goal);
+  EXPECT_EQ(distance(solver.left()), 0);
+}
+
 TEST(ImplicitSolve, TheDirectSolverFinishesWhatStalls) {
   constexpr double kGoal = 1e-7;  // round-off of stiffness x solution, 1e6 x 1 x 1e-16, over 400 links
   const BlockSystem a = randomSystem(60, 1e6);
