@@ -137,7 +137,7 @@ TEST(VesselWalls, StirredWaterComesToRestInARoundMug) {
     if (n >= 50 && n < 100) early = std::max(early, energy);
     if (n >= 250) late = std::max(late, energy);
   }
-  // A slosh loses seven tenths of it; fed by streams along the wall it grows ninefold and takes on water.
+  // A slosh loses seven tenths of it; fed by streams along the wall it doubles and takes on 13 % of water.
   EXPECT_LT(late, 0.5 * early);
   EXPECT_NEAR(sharesOf(simulation).in, volume, 0.06 * volume);
 }
