@@ -101,7 +101,11 @@ void FilmOutlines::clip(FilmOutline& outline) const {
     const Vector2d middle = line.offset * line.u + (from + to) / 2 * along;
     spanned += std::atan2(line.offset * length, line.offset * line.offset + from * to);
     pull -= length * line.u, moment += line.offset * length / 3 * middle;
-    outline.edges.push_back({line.third, length, outline.centre + middle.x() * across_ + middle.y() * upward_,
+    const auto at = [&](const Vector2d& q) -> Vector3d {
+      return outline.centre + q.x() * across_ + q.y() * upward_;
+    };
+    const Vector2d foot = line.offset * line.u;
+    outline.edges.push_back({line.third, length, at(middle), at(foot + from * along), at(foot + to * along),
                              line.lean, line.reach});
   }
   outline.arc = open ? (centreInside ? 2 * std::numbers::pi : 0) - spanned : 0;

@@ -15,11 +15,12 @@ namespace spume::foam {
 /// the plane that cuts it out: a step s leads from the film's first centre to the third, or is the unit
 /// normal into the solid.
 struct FilmEdge {
-  std::int32_t third;      ///< the bubble beyond, -1 for a solid
-  double length;           ///< [m], > 0
-  Eigen::Vector3d middle;  ///< [m]
-  double lean;             ///< part of s along the line of centres, over that line's length
-  double reach;            ///< part of s in the film's plane, which is square to the edge; > 0
+  std::int32_t third;        ///< the bubble beyond, -1 for a solid
+  double length;             ///< [m], > 0
+  Eigen::Vector3d middle;    ///< [m]
+  Eigen::Vector3d from, to;  ///< its ends [m]; the film lies to the left, seen from the second bubble
+  double lean;               ///< part of s along the line of centres, over that line's length
+  double reach;              ///< part of s in the film's plane, which is square to the edge; > 0
 };
 
 /// A film's shape in its plane. What is not cut off of the disc's rim is its arcs, where it meets the air.

@@ -179,6 +179,69 @@ class Collector {
   const std::vector<std::vector<std::int32_t>> contacts_;
 };
 
+template <std::size_t N>
+bool areWanted(const std::array<std::int32_t, N>& bubbles, const std::vector<std::uint8_t>& wanted) {
+  return std::all_of(bubbles.begin(), bubbles.end(), [&](std::int32_t b) { return wanted[b] != 0; });
+}
+
+/// Directions that meet in one place, noted one after the other.
+template <std::size_t N>
+struct Meeting {
+  std::array<Vector3d, N> direction;
+  std::size_t count = 0;
+
+  void add(const Vector3d& d) {
+    if (count < N) direction[count] = d;
+    ++count;
+  }
+  void addAngles(std::vector<double>& angles) const {
+    for (std::size_t a = 0; a < N; ++a)
+      for (std::size_t b = a + 1; b < N; ++b) angles.push_back(degreesBetween(direction[a], direction[b]));
+  }
+};
+
+/// Where a film goes from each stretch of its borders: square to it, in the triangle along it.
+void addFilmAngles(const foam::FilmNetwork& network, const std::vector<std::uint8_t>& wanted,
+                   PlateauAngles& angles) {
+  std::vector<std::vector<Meeting<3>>> stretches(network.borders.size());
+  for (std::size_t b = 0; b < network.borders.size(); ++b)
+    stretches[b].resize(network.borders[b].nodes.size() - 1);
+  for (const foam::NetworkFilm& film : network.films)
+    for (std::int32_t s = 0; s < film.rim; ++s) {
+      const auto [border, stretch] = network.borderOfSlot[film.firstSlot + s];
+      if (border < 0) continue;
+      const Vector3d& from = network.at(film, s);
+      const Vector3d along = (network.at(film, (s + 1) % film.rim) - from).normalized();
+      const Vector3d inward = network.at(film, network.triangles[film.firstTriangle + s][2]) - from;
+      stretches[border][stretch].add(inward - along * along.dot(inward));
+    }
+  for (std::size_t b = 0; b < network.borders.size(); ++b) {
+    if (!areWanted(network.borders[b].bubbles, wanted)) continue;
+    for (const Meeting<3>& meeting : stretches[b]) {
+      if (meeting.count != 3) continue;  // films that do not fit together
+      angles.bordersCells.push_back(network.borders[b].bubbles);
+      meeting.addAngles(angles.films);
+    }
+  }
+}
+
+void addBorderAngles(const foam::FilmNetwork& network, const std::vector<std::uint8_t>& wanted,
+                     PlateauAngles& angles) {
+  std::vector<Meeting<4>> meetings(network.nodes.size());
+  for (const foam::FilmBorder& border : network.borders) {
+    const std::vector<std::int32_t>& nodes = border.nodes;
+    const auto add = [&](std::int32_t end, std::int32_t next) {
+      meetings[end].add(network.nodes[next].position - network.nodes[end].position);
+    };
+    add(nodes.front(), nodes[1]), add(nodes.back(), nodes[nodes.size() - 2]);
+  }
+  for (const foam::FilmPoint& point : network.points) {
+    if (!areWanted(point.bubbles, wanted) || meetings[point.node].count != 4) continue;
+    angles.pointsCells.push_back(point.bubbles);
+    meetings[point.node].addAngles(angles.borders);
+  }
+}
+
 }  // namespace
 
 double PlateauAngles::filmSpread() const { return rmsFrom(films, kFilmAngle); }
@@ -189,6 +252,13 @@ PlateauAngles plateauAngles(const std::vector<Vector3d>& position, const std::ve
   Collector collector(position, radius, topology, wanted);
   for (const foam::Film& film : topology.films) collector.add(film);
   return std::move(collector.angles);
+}
+
+PlateauAngles plateauAngles(const foam::FilmNetwork& network, const std::vector<std::uint8_t>& wanted) {
+  PlateauAngles angles;
+  addFilmAngles(network, wanted, angles);
+  addBorderAngles(network, wanted, angles);
+  return angles;
 }
 
 PlateauAngles anglesAtRest(const std::vector<double>& radius, const PlateauAngles& measured) {

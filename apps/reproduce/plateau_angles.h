@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "foam/film_network.h"
 #include "foam/foam_topology.h"
 
 namespace spume::apps {
@@ -26,11 +27,15 @@ struct PlateauAngles {
 PlateauAngles plateauAngles(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
                             const foam::FoamTopology& topology, const std::vector<std::uint8_t>& wanted);
 
+/// The same of a network of films: films at every stretch of a border, borders by their stretches next to the
+/// point. `bordersCells` has an entry a stretch.
+PlateauAngles plateauAngles(const foam::FilmNetwork& network, const std::vector<std::uint8_t>& wanted);
+
 /// The angles that the same borders and points would have with every pair of their bubbles at Plateau's
-/// distance, l^2 = r_i^2 + r_j^2 - r_i r_j: round films would meet at 120 degrees there, plane ones of unequal
-/// bubbles do not. What a froth spreads by beyond that, its bubbles' many neighbours force on it: even equal
-/// ones in Kelvin's order spread by 7.4 (films) and 14.1 (borders) degrees. Points that cannot be built of
-/// such lengths are left out.
+/// distance, l^2 = r_i^2 + r_j^2 - r_i r_j: round films would meet at 120 degrees there, plane ones of
+/// unequal bubbles do not. What a froth spreads by beyond that, its bubbles' many neighbours force on it:
+/// even equal ones in Kelvin's order spread by 7.4 (films) and 14.1 (borders) degrees. Points that cannot be
+/// built of such lengths are left out.
 PlateauAngles anglesAtRest(const std::vector<double>& radius, const PlateauAngles& measured);
 
 /// Number of borders around every film of the topology; what is left of the film's rim, the free part of its

@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "apps/reproduce/plateau_angles.h"
-#include "apps/reproduce/round_films.h"
 #include "apps/reproduce/scene_figures.h"
 #include "apps/reproduce/scene_studies.h"
 #include "apps/reproduce/svg_plot.h"
+#include "foam/soap_films.h"
 
 namespace spume::apps {
 namespace {
@@ -60,23 +60,30 @@ double fastestRise(const SceneRun& run) {
   return fastest;
 }
 
+/// Of the films as they are drawn and exported, then of the plane ones the bubbles move by.
 void addAngles(const SceneRun& run, std::vector<ResultRow>& rows) {
-  const PlateauAngles angles =
-      plateauAngles(run.bubbles().position, run.bubbles().radius, run.topology, dryOnes(run));
-  ResultRow films = rowOf(run, "spread of the films' angles about 120 deg, dry part");
+  const std::vector<std::uint8_t> dry = dryOnes(run);
+  const foam::SoapFilms soap = foam::soapFilms(run.bubbles(), *run.liquid->sampler());
+  const PlateauAngles curved = plateauAngles(soap.network, dry);
+  ResultRow films = rowOf(run, "spread of the films' angles about 120 deg, dry part, films drawn");
   films.reference = "random power diagram 24 deg";
-  films.note = std::to_string(angles.films.size() / 3) + " borders";
-  rows.push_back(aimAtMost(films, angles.filmSpread(), kWellUnderHalf * kRandomFilms, "deg"));
-  ResultRow borders = rowOf(run, "spread of the borders' angles about 109.47 deg, dry part");
+  films.note =
+      std::to_string(curved.films.size() / 3) + " stretches of borders; soap films (foam/soap_films)";
+  rows.push_back(aimAtMost(films, curved.filmSpread(), kWellUnderHalf * kRandomFilms, "deg"));
+  ResultRow borders = rowOf(run, "spread of the borders' angles about 109.47 deg, dry part, films drawn");
   borders.reference = "random power diagram 36 deg";
-  borders.note = std::to_string(angles.borders.size() / 6) + " points";
-  rows.push_back(aimAtMost(borders, angles.borderSpread(), kWellUnderHalf * kRandomBorders, "deg"));
-  const auto sampler = run.liquid->sampler();
-  ResultRow round =
-      rowOf(run, "films' angles about 120 deg, films as round as their cells' pressures demand");
-  round.note = "Plateau's law is about the films' tangents; the model's films are plane";
-  rows.push_back(reportOnly(round, RoundFilms(run.bubbles(), *sampler).angles(angles).filmSpread(), "deg"));
-  const PlateauAngles rest = anglesAtRest(run.bubbles().radius, angles);
+  borders.note = std::to_string(curved.borders.size() / 6) + " points";
+  rows.push_back(aimAtMost(borders, curved.borderSpread(), kWellUnderHalf * kRandomBorders, "deg"));
+  ResultRow held = rowOf(run, "largest change of a cell's volume by the films' shape");
+  rows.push_back(aimAtMost(held, 100 * soap.report.worstVolume, 1, "%"));
+
+  const PlateauAngles plane = plateauAngles(run.bubbles().position, run.bubbles().radius, run.topology, dry);
+  ResultRow planeFilms = rowOf(run, "films' angles, plane films of the model's cells");
+  planeFilms.note = "least surface at these volumes has 13.6 deg with plane films";
+  rows.push_back(reportOnly(planeFilms, plane.filmSpread(), "deg"));
+  ResultRow planeBorders = rowOf(run, "borders' angles, plane films of the model's cells");
+  rows.push_back(reportOnly(planeBorders, plane.borderSpread(), "deg"));
+  const PlateauAngles rest = anglesAtRest(run.bubbles().radius, plane);
   ResultRow restFilms = rowOf(run, "films' angles of the same bubbles, every pair at Plateau's distance");
   restFilms.note = "plane films of unequal bubbles spread so much at rest";
   rows.push_back(reportOnly(restFilms, rest.filmSpread(), "deg"));

@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "apps/reproduce/plateau_angles.h"
-#include "apps/reproduce/round_films.h"
 #include "foam/counter_random.h"
+#include "foam/neighbours.h"
 #include "foam/power_cells.h"
-#include "foam/still_pool.h"
 
 namespace spume::apps {
 namespace {
@@ -120,29 +119,28 @@ TEST(PlateauAngles, EveryWholeCellHasTheEdgesOfEulersLaw) {
   EXPECT_GT(whole, 50);
 }
 
-TEST(RoundFilms, OfAnUnequalPairLeanLikeTheirSphere) {
-  // A dry pair at Plateau's distance: 1/R = 1/r_1 - 1/r_0, and the film meets its rim at asin(rho / R).
-  constexpr double kLarge = 1, kSmall = 0.9;
-  constexpr double kPlane =
-      0.1;  // of the lean: held volumes balance a plane film's pressures, not a round one's
-  const double apart = std::sqrt(kLarge * kLarge + kSmall * kSmall - kLarge * kSmall);
-  foam::BubbleStore pair;
-  pair.add({.position = {0, 0, 0}, .radius = kLarge, .type = foam::BubbleClass::air, .wetness = 0});
-  pair.add({.position = {apart, 0, 0}, .radius = kSmall, .type = foam::BubbleClass::air, .wetness = 0});
-  foam::StillPoolParams dry;
-  dry.surfaceHeight = -1e3;
-  const RoundFilms films(pair, foam::StillPool(dry));
-  const double height = (apart * apart + kLarge * kLarge - kSmall * kSmall) / (2 * apart);
-  const double rim = std::sqrt(kLarge * kLarge - height * height);
-  const double lean = std::asin(rim * (1 / kSmall - 1 / kLarge)) * 180 / M_PI;
-  EXPECT_NEAR(films.lean(1, 0), lean, kPlane * lean);
-  EXPECT_EQ(films.lean(0, 1), -films.lean(1, 0));
-  PlateauAngles border;
-  border.bordersCells = {{0, 1, 2}}, border.films = {120, 120, 120};
-  const std::vector<double> angles = films.angles(border).films;
-  EXPECT_DOUBLE_EQ(angles[0], 120 + films.lean(0, 1));
-  EXPECT_DOUBLE_EQ(angles[1], 120 + films.lean(1, 0));
-  EXPECT_DOUBLE_EQ(angles[2], 120);
+TEST(PlateauAngles, OfANetworkOfPlaneFilmsAreThoseOfItsCells) {
+  constexpr double kRoundOff = 1e-6;
+  Froth froth;
+  foam::BubbleStore bubbles;
+  for (int n = 0; n < 400; ++n) {
+    foam::CounterRandom random(5, static_cast<std::uint64_t>(n), 1);
+    const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+    const Eigen::Vector3d p(x, y, z);
+    froth.add(p, 0.25, (p.array() > 0.2).all() && (p.array() < 0.8).all());
+    bubbles.add({.position = p, .radius = 0.25});
+  }
+  foam::FoamTopology cells;
+  foam::PowerCells().compute(bubbles.position, bubbles.radius, bubbles.id, cells);
+  foam::Neighbours neighbours;
+  neighbours.build(bubbles.size(), cells.overlaps);
+  const PlateauAngles network = plateauAngles(meshFilms(bubbles, cells, neighbours, {}, 1), froth.inner);
+  const PlateauAngles exact = plateauAngles(bubbles.position, bubbles.radius, cells, froth.inner);
+  ASSERT_GT(exact.films.size(), 300u);
+  EXPECT_EQ(network.films.size(), exact.films.size());
+  EXPECT_EQ(network.borders.size(), exact.borders.size());
+  EXPECT_NEAR(network.filmSpread(), exact.filmSpread(), kRoundOff);
+  EXPECT_NEAR(network.borderSpread(), exact.borderSpread(), kRoundOff);
 }
 
 }  // namespace
