@@ -4,6 +4,7 @@
 #include "apps/preview/renderer.h"
 #include "coupling/bubble_cache.h"
 #include "coupling/drop_cache.h"
+#include "coupling/film_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
@@ -61,6 +62,10 @@ void writeFrame(const coupling::RunFolder& folder, const coupling::Simulation& s
     if (wanted.dropsVdb)
       coupling::writeDropsVdb(folder.dropsVdb(frame), drops, stamp, simulation.liquid().grid.dx);
     if (wanted.dropsPly) coupling::writeDropsPly(folder.dropsPly(frame), drops, stamp);
+    if (wanted.films)
+      coupling::writeFilmsPly(folder.films(frame),
+                              foam::soapFilms(simulation.bubbles(), *simulation.fields()),
+                              simulation.bubbles().id, stamp);
     if (wanted.bubblesPly) coupling::writeBubblesPly(folder.bubblesPly(frame), simulation.bubbles(), stamp);
   }
   if (wanted.preview) {

@@ -6,6 +6,7 @@ namespace spume::coupling {
 
 enum class Backdrop { light, dark };
 enum class BoxLook { glass, none };
+enum class FilmLook { plane, curved };
 enum class SolidLook { automatic, glass, matte };
 
 /// How pictures of a scene look. Nothing here changes the motion.
@@ -20,6 +21,8 @@ struct LookSpec {
   SolidLook solids = SolidLook::automatic;  ///< automatic: hollow ones are glass, the others matte
   /// Thinnest and thickest film [m], 1e-9 to 1e-5: soap films show colours between 0.1 and 0.8 um.
   double filmThin = 100e-9, filmThick = 800e-9;
+  /// Of pictures by `render`: the planes that cut the cells, or soap films (foam/soap_films.h).
+  FilmLook films = FilmLook::plane;
   double filmDrainage = 2;     ///< time a film takes to thin to 1/e of its excess thickness [s], 1e-3 to 1e6
   double plateauBorder = 0.1;  ///< width of the rounding where films meet, over the bubble's radius, 0 to 0.5
 };

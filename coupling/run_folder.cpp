@@ -9,7 +9,7 @@
 namespace spume::coupling {
 namespace {
 
-constexpr const char* kFolders[] = {"liquid", "bubbles", "drops", "preview", "checkpoint"};
+constexpr const char* kFolders[] = {"liquid", "bubbles", "drops", "films", "preview", "checkpoint"};
 // run.json tells a run's folder from others: it is written first and removed last.
 constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv", "probes.csv",
                                   "log.txt",   "scene.toml", "run.json"};
@@ -52,6 +52,7 @@ std::string RunFolder::bubblesPly(int frame) const {
 }
 std::string RunFolder::dropsVdb(int frame) const { return numbered(root_ + "/drops/drops", frame, ".vdb"); }
 std::string RunFolder::dropsPly(int frame) const { return numbered(root_ + "/drops/drops", frame, ".ply"); }
+std::string RunFolder::films(int frame) const { return numbered(root_ + "/films/films", frame, ".ply"); }
 std::string RunFolder::preview(int frame) const {
   return numbered(root_ + "/preview/preview", frame, ".png");
 }

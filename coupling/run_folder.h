@@ -29,6 +29,7 @@ class RunFolder {
   std::string bubblesPly(int frame) const;  ///< bubbles/bubbles.0001.ply
   std::string dropsVdb(int frame) const;    ///< drops/drops.0001.vdb
   std::string dropsPly(int frame) const;    ///< drops/drops.0001.ply
+  std::string films(int frame) const;       ///< films/films.0001.ply
   std::string preview(int frame) const;     ///< preview/preview.0001.png
 
   /// Writes scene.toml, every value resolved. Throws FileError.

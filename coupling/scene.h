@@ -202,6 +202,7 @@ struct CouplingSpec {
 struct OutputSpec {
   bool liquid = true, bubblesVdb = true, bubblesPly = true, preview = true;
   bool dropsVdb = true, dropsPly = true;
+  bool films = false;  ///< soap films as a mesh; costs seconds a frame
   bool staggeredVelocity = false;
   int every = 1;             ///< caches every n-th frame, 1 to 1000
   int checkpointEvery = 10;  ///< frames between checkpoints, 1 to 10000

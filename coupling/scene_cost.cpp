@@ -10,15 +10,16 @@ namespace spume::coupling {
 namespace {
 
 // Figures of the cost estimate, two cores.
-constexpr double kSecondsPerCell = 4e-7;               // of a liquid sub-step, per cell: 0.1 s at 64^3
-constexpr double kSecondsPerBubble = 4e-6;             // of a foam step
-constexpr double kPouredBubbles = 4000;                // alive in a steady pour of the size of a glass
-constexpr double kBytesPerCell = 400;                  // fields, their copies, pressure levels
-constexpr double kBytesPerMarker = 25;                 // a column of MarkerSet each
-constexpr double kSurfaceCellsFactor = 4;              // area of a pouring surface over the floor's
-constexpr double kCachedBytesPerWetCell = 11;          // vel, compressed, plus the band of `surface`
-constexpr double kPictureBytesPerPixel = 1.5;          // of a PNG
-constexpr double kPlyBytes = 52, kVdbPointBytes = 60;  // a bubble
+constexpr double kSecondsPerCell = 4e-7;                  // of a liquid sub-step, per cell: 0.1 s at 64^3
+constexpr double kSecondsPerBubble = 4e-6;                // of a foam step
+constexpr double kPouredBubbles = 4000;                   // alive in a steady pour of the size of a glass
+constexpr double kBytesPerCell = 400;                     // fields, their copies, pressure levels
+constexpr double kBytesPerMarker = 25;                    // a column of MarkerSet each
+constexpr double kSurfaceCellsFactor = 4;                 // area of a pouring surface over the floor's
+constexpr double kCachedBytesPerWetCell = 11;             // vel, compressed, plus the band of `surface`
+constexpr double kPictureBytesPerPixel = 1.5;             // of a PNG
+constexpr double kPlyBytes = 52, kVdbPointBytes = 60;     // a bubble
+constexpr double kFilmBytes = 4600, kFilmSeconds = 5e-4;  // a bubble's films, of a froth
 
 /// Bubbles that sources and sites will have made by time t, none of them gone [-].
 double suppliedBubbles(const Scene& scene, double t) {
@@ -66,7 +67,9 @@ CostEstimate estimateCost(const Scene& scene) {
   const double wetCells = cost.liquidVolume / grid.cellVolume() + surfaceCells;
   cost.diskBytes = cached * ((scene.output.liquid ? kCachedBytesPerWetCell * wetCells : 0) +
                              bubbles * ((scene.output.bubblesPly ? kPlyBytes : 0) +
-                                        (scene.output.bubblesVdb ? kVdbPointBytes : 0)));
+                                        (scene.output.bubblesVdb ? kVdbPointBytes : 0) +
+                                        (scene.output.films ? kFilmBytes : 0)));
+  if (scene.output.films) cost.secondsPerFrame += kFilmSeconds * bubbles / scene.output.every;
   if (scene.output.preview)
     cost.diskBytes +=
         scene.time.frames * kPictureBytesPerPixel * scene.output.previewSize.cast<double>().prod();

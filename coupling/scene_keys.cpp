@@ -106,6 +106,9 @@ KeyTable outputTable() {
       .key("bubbles_ply", &OutputSpec::bubblesPly, "bubbles/bubbles.####.ply")
       .key("drops_vdb", &OutputSpec::dropsVdb, "drops/drops.####.vdb")
       .key("drops_ply", &OutputSpec::dropsPly, "drops/drops.####.ply")
+      .key("films", &OutputSpec::films,
+           "films/films.####.ply: the films as a mesh, curved as soap films are; half a second per 1000 "
+           "bubbles")
       .key("preview", &OutputSpec::preview, "preview/preview.####.png")
       .key("staggered_velocity", &OutputSpec::staggeredVelocity, "vel on faces instead of cell centres")
       .key("every", &OutputSpec::every, {1, 1000, "frames"}, "frames between cached ones")
@@ -136,6 +139,10 @@ KeyTable lookTable() {
            "of the panes; 0: a fortieth of the longest edge")
       .choice("solids", &LookSpec::solids, {"automatic", "glass", "matte"},
               "automatic: vessels are glass, others matte")
+      .choice(
+          "films", &LookSpec::films, {"plane", "curved"},
+          "plane faces of cells; curved as soap films are, in pictures of `render`: half a second per 1000 "
+          "bubbles")
       .key("film_thin", &LookSpec::filmThin, film, "thinnest film between or around bubbles")
       .key("film_thick", &LookSpec::filmThick, film, "thickest film, of new bubbles")
       .key("film_drainage", &LookSpec::filmDrainage, {1e-3, 1e6, "s"}, "time films take to thin")

@@ -343,6 +343,7 @@ double Simulation::time() const { return internals_->time; }
 const Scene& Simulation::scene() const { return internals_->scene; }
 const fluid::LiquidState& Simulation::liquid() const { return internals_->liquid->state(); }
 const fluid::SolidBoundary& Simulation::solids() const { return internals_->liquid->solids(); }
+std::unique_ptr<foam::LiquidSampler> Simulation::fields() const { return internals_->liquid->sampler(); }
 const foam::BubbleStore& Simulation::bubbles() const { return internals_->bubbles; }
 const foam::FoamTopology& Simulation::topology() const { return internals_->foam.topology(); }
 const std::vector<std::uint64_t>& Simulation::topologyIds() const { return internals_->foam.topologyIds(); }

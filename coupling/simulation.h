@@ -77,6 +77,8 @@ class Simulation {
   const Scene& scene() const;
   const fluid::LiquidState& liquid() const;
   const fluid::SolidBoundary& solids() const;
+  /// What the foam asks of the liquid and the solids now; to be used before the next step.
+  std::unique_ptr<foam::LiquidSampler> fields() const;
   const foam::BubbleStore& bubbles() const;
   const foam::FoamTopology& topology() const;  ///< row k is the bubble topologyIds()[k]
   const std::vector<std::uint64_t>& topologyIds() const;

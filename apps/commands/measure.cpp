@@ -1,21 +1,26 @@
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "apps/commands/commands.h"
 #include "apps/exit_code.h"
 #include "apps/report.h"
 #include "coupling/bubble_table.h"
 #include "coupling/cell_table.h"
+#include "coupling/film_cache.h"
 #include "foam/power_cells.h"
 #include "foam/power_diagram.h"
+#include "foam/soap_films.h"
 
 namespace spume::apps {
 namespace {
 
 struct MeasureOptions {
-  std::string bubbles, cells, contacts;
+  std::string bubbles, cells, contacts, films;
   std::string engine = "local";
   bool json = false;
 };
@@ -36,11 +41,16 @@ bool sameFile(const std::string& a, const std::string& b) {
 
 /// No file may replace another of the same call.
 void checkPaths(const MeasureOptions& options) {
-  if (sameFile(options.cells, options.contacts))
-    throw coupling::SceneError("--output and --contacts are the same file, " + options.cells);
-  for (const std::string& written : {options.cells, options.contacts})
-    if (sameFile(written, options.bubbles))
-      throw coupling::SceneError(written + " would replace the bubbles it is measured from");
+  const std::array<std::pair<const char*, std::string>, 3> written{
+      {{"--output", options.cells}, {"--contacts", options.contacts}, {"--films", options.films}}};
+  for (std::size_t a = 0; a < written.size(); ++a) {
+    for (std::size_t b = a + 1; b < written.size(); ++b)
+      if (sameFile(written[a].second, written[b].second))
+        throw coupling::SceneError(std::string(written[a].first) + " and " + written[b].first +
+                                   " are the same file, " + written[a].second);
+    if (sameFile(written[a].second, options.bubbles))
+      throw coupling::SceneError(written[a].second + " would replace the bubbles it is measured from");
+  }
 }
 
 Report reportOf(const coupling::FoamTotals& totals, double geometrySeconds, double seconds) {
@@ -65,6 +75,15 @@ foam::FoamTopology topologyOf(const coupling::BubbleTable& bubbles, const std::s
   return topology;
 }
 
+foam::BubbleStore storeOf(const coupling::BubbleTable& table) {
+  foam::BubbleStore bubbles;
+  for (std::size_t n = 0; n < table.id.size(); ++n) {
+    bubbles.add({.position = table.position[n], .radius = table.radius[n]});
+    bubbles.id.back() = table.id[n];
+  }
+  return bubbles;
+}
+
 int measure(const MeasureOptions& options) {
   const Clock::time_point start = Clock::now();
   checkPaths(options);
@@ -74,6 +93,8 @@ int measure(const MeasureOptions& options) {
   const double geometrySeconds = secondsSince(read);
   if (!options.cells.empty()) coupling::writeCellTable(options.cells, bubbles, topology);
   if (!options.contacts.empty()) coupling::writeContactTable(options.contacts, bubbles, topology);
+  if (!options.films.empty())
+    coupling::writeFilmsPly(options.films, foam::soapFilms(storeOf(bubbles)), bubbles.id, {});
   const Report report = reportOf(coupling::totalsOf(topology), geometrySeconds, secondsSince(start));
   std::cout << (options.json ? report.json() : report.text());
   return kDone;
@@ -94,6 +115,10 @@ void addMeasure(CLI::App& program, Action& action) {
       ->type_name("CSV");
   verb->add_option("--contacts", options->contacts, "a row per film: id_a,id_b,distance,film_area")
       ->type_name("CSV");
+  verb->add_option("--films", options->films,
+                   "the films as a mesh, curved as soap films are: faces with id_a,id_b,curvature; half a "
+                   "second per 1000 balls")
+      ->type_name("PLY");
   verb->add_option("--engine", options->engine,
                    "local: from overlapping neighbours; global: the triangulation of all balls, a slow check")
       ->check(CLI::IsMember({"local", "global"}))
@@ -103,7 +128,8 @@ void addMeasure(CLI::App& program, Action& action) {
       "The totals are those of the union of the balls; film_area counts each film once.\n"
       "Examples:\n"
       "  spume measure balls.csv -o cells.csv --contacts contacts.csv\n"
-      "  spume measure out/pouring/bubbles/bubbles.0150.ply");
+      "  spume measure out/pouring/bubbles/bubbles.0150.ply\n"
+      "  spume measure out/soap/bubbles/bubbles.0240.ply --films films.ply");
   verb->callback([options, &action] { action = [options] { return measure(*options); }; });
 }
 

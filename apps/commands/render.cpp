@@ -21,6 +21,8 @@
 #include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_toml.h"
+#include "coupling/vdb_liquid_sampler.h"
+#include "foam/soap_films.h"
 
 namespace spume::apps {
 namespace {
@@ -28,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RenderOptions {
-  std::string folder, frames, size = "960x720", style = "beauty";
+  std::string folder, frames, size = "960x720", style = "beauty", films;
   int samples = 2;
 };
 
@@ -124,12 +126,20 @@ void renderFrame(const coupling::Scene& scene, const std::string& folder, const 
   const std::vector<double> shade = bubbleShade(settings.style, scene.foam, bubbles);
   PreviewScene view = previewOf(scene, liquid.liquid, bubbles);
   view.bubbleShade = shade;
+  std::optional<foam::SoapFilms> films;
+  if (scene.look.films == coupling::FilmLook::curved && settings.style == PreviewStyle::beauty) {
+    films = foam::soapFilms(bubbles,
+                            coupling::VdbLiquidSampler(liquid, scene.liquid.density, scene.liquid.gravity));
+    view.films = &*films;
+  }
   writePng(renderPreview(view, settings), path);
 }
 
 int render(const RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const coupling::Scene scene = coupling::readScene(options.folder + "/scene.toml");
+  coupling::Scene scene = coupling::readScene(options.folder + "/scene.toml");
+  if (!options.films.empty())
+    scene.look.films = options.films == "curved" ? coupling::FilmLook::curved : coupling::FilmLook::plane;
   const coupling::CacheListing cache = coupling::listCache(options.folder + "/liquid", "liquid", "vdb");
   const auto [first, last] = framesOf(options.frames);
   const auto [width, height] = *numberPair(options.size, 'x');
@@ -174,13 +184,19 @@ void addRender(CLI::App& program, Action& action) {
                    "beauty; classes: blue in the liquid, green at the surface, orange in air; contacts: "
                    "their number, 0 dark to 14 yellow; pressure: of the neighbours over capillary, 0 to 1")
       ->check(CLI::IsMember(std::vector<std::string>(kStyleNames.begin(), kStyleNames.end())));
+  verb->add_option(
+          "--films", options->films,
+          "plane: the faces of the cells; curved: as soap films are, half a second per 1000 bubbles; "
+          "default: look.films of the scene")
+      ->check(CLI::IsMember({"plane", "curved"}));
   verb->add_option("--samples", options->samples, "per pixel and axis, 1 to 8; default 2")
       ->check(CLI::Range(1, 8));
   verb->footer(
       "Examples:\n"
       "  spume render out/pouring\n"
       "  spume render out/pouring --frames 90 --size 1920x1440 --samples 3\n"
-      "  spume render out/pouring --style pressure");
+      "  spume render out/pouring --style pressure\n"
+      "  spume render out/soap --frames 240 --films curved");
   verb->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

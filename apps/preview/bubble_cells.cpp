@@ -11,6 +11,7 @@ namespace {
 
 /// Liquid left between a bubble and a wall it touches: as a share of the box (just above the rounding of
 /// float positions) and, at solids, which may curve away from their tangent plane, of the radius.
+constexpr float kOnFace = 1e-3f;  ///< of the radius: a point this near lies on a face
 constexpr double kWallGap = 1e-5, kSolidGap = 0.02;
 
 /// Outward unit normal of a solid at `x`, by central differences over `step` [m].
@@ -95,7 +96,9 @@ void BubbleCells::wallFaces(const PreviewScene& scene, int bubble, std::vector<F
       add(-gradientOf(solid, x, 0.1 * r), psi - gap - kSolidGap * r);
 }
 
-bool BubbleCells::cut(int bubble, const Vec3& origin, const Vec3& direction, Stretch& stretch) const {
+template <typename Counts>
+bool BubbleCells::cutWhere(int bubble, const Vec3& origin, const Vec3& direction, const Counts& counts,
+                           Stretch& stretch) const {
   const Vec3 o = origin - centre_[bubble];
   const float along = o.dot(direction);
   const float gap = radius_[bubble] * radius_[bubble] - (o - along * direction).squaredNorm();
@@ -103,6 +106,7 @@ bool BubbleCells::cut(int bubble, const Vec3& origin, const Vec3& direction, Str
   const float half = std::sqrt(gap);
   stretch = {-along - half, -along + half, kSkin, kSkin};
   for (int f = firstFace(bubble); f < endFace(bubble); ++f) {
+    if (!counts(f)) continue;
     const Plane& plane = plane_[f];
     const float speed = plane.normal.dot(direction), distance = plane.height - plane.normal.dot(o);
     // Most planes lie beyond what is found already: they are passed over without a division.
@@ -119,6 +123,38 @@ bool BubbleCells::cut(int bubble, const Vec3& origin, const Vec3& direction, Str
     if (stretch.in >= stretch.out) return false;
   }
   return true;
+}
+
+bool BubbleCells::cut(int bubble, const Vec3& origin, const Vec3& direction, Stretch& stretch) const {
+  return cutWhere(
+      bubble, origin, direction, [](int) { return true; }, stretch);
+}
+
+bool BubbleCells::cutByWalls(int bubble, const Vec3& origin, const Vec3& direction, Stretch& stretch) const {
+  return cutWhere(
+      bubble, origin, direction, [&](int f) { return neighbour_[f] == kWall; }, stretch);
+}
+
+int BubbleCells::beyondSkin(int bubble, const Vec3& p) const {
+  float farthest = kOnFace * radius_[bubble];
+  int other = -1;
+  for (int f = firstFace(bubble); f < endFace(bubble); ++f) {
+    const float beyond = plane_[f].normal.dot(p - centre_[bubble]) - plane_[f].height;
+    if (neighbour_[f] != kWall && beyond > farthest) farthest = beyond, other = neighbour_[f];
+  }
+  return other;
+}
+
+int BubbleCells::wallAt(int bubble, const Vec3& p) const {
+  for (int f = firstFace(bubble); f < endFace(bubble); ++f)
+    if (neighbour_[f] == kWall &&
+        std::abs(plane_[f].normal.dot(p - centre_[bubble]) - plane_[f].height) < kOnFace * radius_[bubble])
+      return f;
+  return kSkin;
+}
+
+bool BubbleCells::holds(int bubble, const Vec3& p) const {
+  return (p - centre_[bubble]).norm() < (1 + kOnFace) * radius_[bubble];
 }
 
 Vec3 BubbleCells::normalAt(int bubble, int face, const Vec3& p) const {

@@ -38,6 +38,15 @@ class BubbleCells {
   };
   /// Where the line `origin` + t `direction` (unit) runs in the cell; false if it misses. O(faces).
   bool cut(int bubble, const Vec3& origin, const Vec3& direction, Stretch& stretch) const;
+  /// The same of the ball cut by walls alone: its films are somebody else's.
+  bool cutByWalls(int bubble, const Vec3& origin, const Vec3& direction, Stretch& stretch) const;
+
+  /// The other bubble whose ball reaches beyond this one's skin at `p`, by far enough to be no round-off; -1:
+  /// none.
+  int beyondSkin(int bubble, const Vec3& p) const;
+  /// The face of a wall that `p` lies on, or kSkin.
+  int wallAt(int bubble, const Vec3& p) const;
+  bool holds(int bubble, const Vec3& p) const;
 
   /// Outward normal at `p` on the bubble's face, bent as the pressure of the two bubbles bends the film.
   Vec3 normalAt(int bubble, int face, const Vec3& p) const;
@@ -54,6 +63,9 @@ class BubbleCells {
     std::int32_t neighbour;
     float curvature;  ///< of the film, > 0: bulges out of the bubble [1/m]
   };
+  template <typename Counts>
+  bool cutWhere(int bubble, const Vec3& origin, const Vec3& direction, const Counts& counts,
+                Stretch& stretch) const;
   void neighbourFaces(const PreviewScene& scene, int bubble, const std::vector<std::int32_t>& candidates,
                       std::vector<Face>& faces);
   void wallFaces(const PreviewScene& scene, int bubble, std::vector<Face>& faces) const;

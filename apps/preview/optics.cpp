@@ -32,11 +32,12 @@ Vec3 absorptionOf(const Vec3& left, float depth) { return -left.array().log() / 
 
 Vec3 passedShare(const Vec3& absorption, float distance) { return (-absorption * distance).array().exp(); }
 
-Optics::Optics(const PreviewScene& scene, const GlassBox& box, const BubbleCells& cells, const RayScene& rays,
-               bool diagram)
+Optics::Optics(const PreviewScene& scene, const GlassBox& box, const BubbleCells& cells,
+               const FilmSurfaces* films, const RayScene& rays, bool diagram)
     : scene_(scene),
       box_(box),
       cells_(cells),
+      films_(films),
       rays_(rays),
       diagram_(diagram),
       waterAbsorption_(
@@ -134,35 +135,53 @@ void Optics::meetSurface(const LightPath& path, const SurfaceHit& hit, Crossing&
 
 /// A path outside all bubbles meets the skin of one.
 void Optics::meetSkin(const LightPath& path, int bubble, Crossing& crossing) const {
+  if (films_) bubble = bubbleBehindSkin(path, bubble);
   crossing.bubble = bubble;
   crossing.behind.bubble = bubble;
-  const Face skin = faceAt(path, bubble, BubbleCells::kSkin);
+  const int wall = films_ ? cells_.wallAt(bubble, path.origin) : BubbleCells::kSkin;
+  const Face skin = wall == BubbleCells::kSkin ? faceAt(path, bubble, wall) : wallFace(path, bubble, wall);
   crossing.border = skin.share;
   if (!path.inWater) return crossFilm(path, skin, -1, crossing);
   crossing.normal = skin.normal;
   refractOrMirror(path, crossing);
 }
 
+/// At a wall curved films stand elsewhere than the planes that told whose skin was met: the bubble on this
+/// side of the first film is.
+int Optics::bubbleBehindSkin(const LightPath& path, int bubble) const {
+  BubbleCells::Stretch open{0, 0, BubbleCells::kSkin, BubbleCells::kSkin};
+  FilmSurfaces::Hit hit;
+  const bool meets = cells_.cutByWalls(bubble, path.origin, path.direction, open) && open.out > 0 &&
+                     films_->meet(path.origin, path.direction, open.out, hit);
+  return meets && cells_.holds(hit.near, path.origin) ? hit.near : bubble;
+}
+
+float Optics::borderOf(int bubble) const {
+  return static_cast<float>(scene_.look.plateauBorder) * cells_.radius(bubble);
+}
+
 Optics::Face Optics::faceAt(const LightPath& path, int bubble, int face) const {
-  const float width = static_cast<float>(scene_.look.plateauBorder) * cells_.radius(bubble);
-  const Rounding rounded = cells_.roundedAt(bubble, face, path.origin, width);
+  const Rounding rounded = cells_.roundedAt(bubble, face, path.origin, borderOf(bubble));
   const float side = path.bubble == bubble ? -1.0f : 1.0f;
   Vec3 exact = side * cells_.normalAt(bubble, face, path.origin);
   if (exact.dot(path.direction) > 0) exact = -exact;
   return {facing(side * rounded.normal, exact, path.direction), exact, rounded.share};
 }
 
-/// Cells of neighbours share their faces, so the way through a foam needs no search.
+/// The face of a bubble at a wall, with the borders of its curved films.
+Optics::Face Optics::wallFace(const LightPath& path, int bubble, int face) const {
+  const Vec3& flat = cells_.planeNormal(face);
+  const Rounding rounded = films_->roundedAtWall(bubble, path.origin, flat, borderOf(bubble));
+  const float side = flat.dot(path.direction) > 0 ? -1.0f : 1.0f;
+  const Vec3 exact = side * flat;
+  return {facing(side * rounded.normal, exact, path.direction), exact, rounded.share};
+}
+
 Crossing Optics::nextInBubble(LightPath& path) const {
-  const int bubble = path.bubble;
-  BubbleCells::Stretch stretch{0, 0, BubbleCells::kSkin, BubbleCells::kSkin};
-  const bool inside = cells_.cut(bubble, path.origin, path.direction, stretch) && stretch.out > 0;
-  const int face = inside ? stretch.faceOut : BubbleCells::kSkin;
-  if (inside) path.origin += stretch.out * path.direction;
-  Crossing crossing{.kind = Boundary::clear, .bubble = bubble, .behind = path};
-  const Face wall = faceAt(path, bubble, face);
+  int other = -1;
+  const Face wall = films_ ? leaveByFilms(path, other) : leaveByPlanes(path, other);
+  Crossing crossing{.kind = Boundary::clear, .bubble = path.bubble, .behind = path};
   crossing.border = wall.share;
-  const int other = face == BubbleCells::kSkin ? -1 : cells_.neighbour(face);
   crossing.behind.bubble = other;
   if (other < 0) crossing.behind.inWater = liquidAt(path.origin);
   if (other >= 0 || !crossing.behind.inWater) {
@@ -172,6 +191,35 @@ Crossing Optics::nextInBubble(LightPath& path) const {
     refractOrMirror(path, crossing);
   }
   return crossing;
+}
+
+/// Cells of neighbours share their faces, so the way through a foam needs no search.
+Optics::Face Optics::leaveByPlanes(LightPath& path, int& other) const {
+  BubbleCells::Stretch stretch{0, 0, BubbleCells::kSkin, BubbleCells::kSkin};
+  const bool inside = cells_.cut(path.bubble, path.origin, path.direction, stretch) && stretch.out > 0;
+  const int face = inside ? stretch.faceOut : BubbleCells::kSkin;
+  if (inside) path.origin += stretch.out * path.direction;
+  other = face == BubbleCells::kSkin ? -1 : cells_.neighbour(face);
+  return faceAt(path, path.bubble, face);
+}
+
+/// A film that the ray meets knows better which bubble it comes from. Where there is none before the skin,
+/// the ray has gone through the gap that the chords of a film's rim leave if another ball reaches beyond.
+Optics::Face Optics::leaveByFilms(LightPath& path, int& other) const {
+  BubbleCells::Stretch open{0, 0, BubbleCells::kSkin, BubbleCells::kSkin};
+  const bool inside = cells_.cutByWalls(path.bubble, path.origin, path.direction, open) && open.out > 0;
+  FilmSurfaces::Hit hit;
+  if (inside && films_->meet(path.origin, path.direction, open.out, hit)) {
+    path.bubble = hit.near, other = hit.far;
+    path.origin += hit.distance * path.direction;
+    const Rounding rounded = films_->rounded(hit, path.origin, borderOf(hit.near));
+    const Vec3 exact = -hit.normal;
+    return {facing(-rounded.normal, exact, path.direction), exact, rounded.share};
+  }
+  if (inside) path.origin += open.out * path.direction;
+  if (inside && open.faceOut != BubbleCells::kSkin) return wallFace(path, path.bubble, open.faceOut);
+  other = cells_.beyondSkin(path.bubble, path.origin);
+  return faceAt(path, path.bubble, BubbleCells::kSkin);
 }
 
 /// Fresnel and Snell between the media on the two sides.

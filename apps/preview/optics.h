@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/preview/bubble_cells.h"
+#include "apps/preview/film_surfaces.h"
 #include "apps/preview/glass_box.h"
 #include "apps/preview/ray_scene.h"
 
@@ -41,10 +42,10 @@ Vec3 passedShare(const Vec3& absorption, float distance);
 /// Thread-safe.
 class Optics {
  public:
-  /// All arguments must outlive this object. A `diagram` bends no light at flat boundaries, so that things
-  /// are seen where they are.
-  Optics(const PreviewScene& scene, const GlassBox& box, const BubbleCells& cells, const RayScene& rays,
-         bool diagram);
+  /// All arguments must outlive this object; `films` null: cells are cut by their planes. A `diagram` bends
+  /// no light at flat boundaries, so that things are seen where they are.
+  Optics(const PreviewScene& scene, const GlassBox& box, const BubbleCells& cells, const FilmSurfaces* films,
+         const RayScene& rays, bool diagram);
 
   /// Moves the path to the next boundary and describes it.
   Crossing next(LightPath& path) const;
@@ -61,11 +62,17 @@ class Optics {
   Crossing nextInGlass(LightPath& path) const;
   Crossing nextInside(LightPath& path) const;
   Crossing nextInBubble(LightPath& path) const;
+  /// Moves the path to where it leaves its bubble; sets the bubble behind, -1: none.
+  Face leaveByPlanes(LightPath& path, int& other) const;
+  Face leaveByFilms(LightPath& path, int& other) const;
+  int bubbleBehindSkin(const LightPath& path, int bubble) const;
   Crossing leaveInside(LightPath& path, const GlassBox::Hit& wall, Crossing crossing) const;
   void meetSurface(const LightPath& path, const SurfaceHit& hit, Crossing& crossing) const;
   void meetSkin(const LightPath& path, int bubble, Crossing& crossing) const;
   void refractOrMirror(const LightPath& path, Crossing& crossing) const;
   Face faceAt(const LightPath& path, int bubble, int face) const;
+  Face wallFace(const LightPath& path, int bubble, int face) const;
+  float borderOf(int bubble) const;
   void crossFilm(const LightPath& path, const Face& film, int other, Crossing& crossing) const;
   float filmThickness(int bubble, int other, const Vec3& p) const;
   float indexOf(const LightPath& path) const;
@@ -75,6 +82,7 @@ class Optics {
   const PreviewScene& scene_;
   const GlassBox& box_;
   const BubbleCells& cells_;
+  const FilmSurfaces* films_;
   const RayScene& rays_;
   bool diagram_;
   Vec3 waterAbsorption_, glassAbsorption_;  ///< [1/m]

@@ -11,6 +11,7 @@
 #include "fluid/drop.h"
 #include "fluid/grid_spec.h"
 #include "foam/bubble_store.h"
+#include "foam/soap_films.h"
 
 namespace spume::apps {
 
@@ -38,6 +39,7 @@ struct PreviewScene {
   std::span<const std::uint64_t> bubbleId;  ///< sets the films' thickness; empty: the index
   std::span<const double> bubbleAge;        ///< [s]; empty: 0
   std::span<const double> bubbleShade;      ///< 0..1 for the styles contacts and pressure; empty: 0
+  const foam::SoapFilms* films = nullptr;   ///< of these bubbles, for `beauty`; null: plane films
   std::span<const fluid::Drop> drops;       ///< liquid in flight, drawn as balls
   coupling::CameraSpec camera;              ///< eye == target: placed to show the whole box
   coupling::LookSpec look;

@@ -128,6 +128,7 @@ RayScene::RayScene(const PreviewScene& scene, const BubbleCells& cells, SurfaceM
 }
 
 RayScene::~RayScene() = default;
+float RayScene::offset() const { return internals_->offset; }
 
 SurfaceHit RayScene::nearest(const Vec3& origin, const Vec3& direction, float limit) const {
   return internals_->trace(internals_->everything, origin, direction, limit);

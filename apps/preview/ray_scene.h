@@ -30,7 +30,8 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Nearest surface between a small offset and `limit` [m]; bubbles only from outside them.
+  float offset() const;  ///< shortest distance a ray sees [m]
+  /// Nearest surface between that offset and `limit` [m]; bubbles only from outside them.
   SurfaceHit nearest(const Vec3& origin, const Vec3& direction, float limit) const;
   /// The same where solids are all there is.
   SurfaceHit nearestSolid(const Vec3& origin, const Vec3& direction, float limit) const;

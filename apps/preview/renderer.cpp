@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "apps/preview/camera.h"
@@ -118,7 +119,11 @@ Image renderPreview(const PreviewScene& scene, const PreviewSettings& settings) 
   const Camera camera(scene.camera, shownBox(box, solids), settings.width, settings.height);
   const RayScene rays(scene, cells, meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper),
                       std::move(solids));
-  const Optics optics(scene, box, cells, rays, settings.style != PreviewStyle::beauty);
+  std::optional<FilmSurfaces> films;
+  if (scene.films && settings.style == PreviewStyle::beauty)
+    films.emplace(*scene.films, scene.bubblePosition.size(), rays.offset());
+  const Optics optics(scene, box, cells, films ? &*films : nullptr, rays,
+                      settings.style != PreviewStyle::beauty);
   Environment environment(box, scene.look.backdrop);
   environment.setLightMap(
       LightMap(optics, box, Environment::keyDirection(), std::min(settings.samples, kMostDetail)));

@@ -59,7 +59,8 @@ void foldSteps(const std::string& folder, FrameCurves& curves) {
 /// The figures need the PLY of bubbles alone, and that whatever the scene says.
 coupling::Scene withBubblesAlone(coupling::Scene scene) {
   coupling::OutputSpec& output = scene.output;
-  output.preview = output.liquid = output.bubblesVdb = output.dropsVdb = output.dropsPly = false;
+  output.preview = output.liquid = output.bubblesVdb = output.dropsVdb = output.dropsPly = output.films =
+      false;
   output.bubblesPly = true;
   return scene;
 }

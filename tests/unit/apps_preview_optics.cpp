@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "apps/preview/bubble_shade.h"
+#include "apps/preview/film_surfaces.h"
 #include "apps/preview/film_thickness.h"
 #include "apps/preview/light_map.h"
 #include "apps/preview/optics.h"
@@ -40,7 +42,7 @@ struct Bench {
         cells(scene),
         rays(scene, cells, apps::meshLevelSet(scene.grid, scene.phi, scene.lower, scene.upper),
              solidMeshes()),
-        optics(scene, box, cells, rays, false) {}
+        optics(scene, box, cells, nullptr, rays, false) {}
   std::vector<apps::SurfaceMesh> solidMeshes() const {
     std::vector<apps::SurfaceMesh> meshes;
     for (const apps::PreviewSolid& solid : scene.solids)
@@ -106,6 +108,37 @@ TEST(BubbleCells, CutPairMeetsOnTheRadicalPlane) {
     EXPECT_NEAR(second.in, first.out, kRoundOffLength);
     EXPECT_EQ(first.faceIn, BubbleCells::kSkin);
     EXPECT_NEAR(second.out, 0.05 + d + std::sqrt(s * s - y * y), kRoundOffLength);
+  }
+}
+
+TEST(FilmSurfaces, AreCrossedWhereTheFilmsHaveGone) {
+  Tank tank = emptyTank();
+  foam::BubbleStore bubbles;
+  const double r = 0.01, d = 0.012, bulge = 0.001;
+  for (const Vector3d& x : {Vector3d(0.05, 0.05, 0.05), Vector3d(0.05 + d, 0.05, 0.05)}) {
+    tank.addBubble(x, r);
+    bubbles.add({.position = x, .radius = r});
+  }
+  foam::SoapFilms films = foam::soapFilms(bubbles);
+  ASSERT_EQ(films.network.films.size(), 1u);
+  for (foam::FilmNode& node : films.network.nodes)  // a cone towards the second bubble, its rim as it was
+    node.position.x() += bulge * (1 - (node.position - Vector3d(0.05 + d / 2, 0.05, 0.05)).norm() /
+                                          std::sqrt(r * r - d * d / 4));
+  apps::PreviewScene scene = tank.scene();
+  scene.look.plateauBorder = 0;
+  const Bench bench(scene);
+  const apps::FilmSurfaces surfaces(films, bubbles.size(), 1e-7f);
+  const apps::Optics optics(bench.scene, bench.box, bench.cells, &surfaces, bench.rays, false);
+
+  apps::LightPath path = optics.startAt(Vec3(0.03f, 0.05f, 0.05f), Vec3::UnitX());
+  const double skin = 0.05 - r, film = 0.05 + d / 2 + bulge, far = 0.05 + d + r;
+  const std::array<std::pair<double, int>, 3> met{{{skin, 0}, {film, 1}, {far, -1}}};
+  for (const auto& [x, behind] : met) {
+    const apps::Crossing crossing = optics.next(path);
+    EXPECT_NEAR(path.origin.x(), x, kRoundOffLength);
+    EXPECT_EQ(crossing.behind.bubble, behind);
+    EXPECT_LT(crossing.normal.dot(path.direction), 0);
+    path = crossing.behind;
   }
 }
 

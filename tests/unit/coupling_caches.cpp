@@ -1,14 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <random>
 
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
 #include "coupling/drop_cache.h"
+#include "coupling/film_cache.h"
 #include "coupling/liquid_cache.h"
 #include "fluid/parallel.h"
 #include "tests/support/temporary_path.h"
@@ -137,6 +142,60 @@ fluid::LiquidState pool() {
       for (int k = 0; k < 10; ++k)
         liquid.phi(i, j, k) = static_cast<float>(liquid.grid.cellCentre(i, j, k).y() - 5.3 * kVoxel);
   return liquid;
+}
+
+/// The bytes of a file after its PLY header, and the lines of that.
+struct PlyFile {
+  std::string header, body;
+  explicit PlyFile(const std::string& path) {
+    const std::string all = readFile(path), end = "end_header\n";
+    const std::size_t at = all.find(end) + end.size();
+    header = all.substr(0, at), body = all.substr(at);
+  }
+  template <typename Value>
+  Value at(std::size_t offset) const {
+    Value value;
+    std::memcpy(&value, body.data() + offset, sizeof value);
+    return value;
+  }
+};
+
+TEST(FilmCache, PlyHoldsTheMeshWithTheIdsAndTheCurvatureOfEveryFilm) {
+  const std::string path = fileIn("films.ply");
+  foam::BubbleStore bubbles;
+  const Eigen::Vector3d centre[] = {{0, 0, 0}, {1.5, 0, 0}, {0.75, 1.3, 0}, {0.75, 0.43, 1.22}};
+  for (const Eigen::Vector3d& x : centre) bubbles.add({.position = x, .radius = 1});
+  for (std::uint64_t& id : bubbles.id) id += 40;
+  foam::SoapFilms films = foam::soapFilms(bubbles);
+  films.report.pressure = {3, 1, 1, 1};
+  writeFilmsPly(path, films, bubbles.id, {7, 0.5, 30});
+
+  const PlyFile ply(path);
+  EXPECT_NE(ply.header.find("comment frame 7\n"), std::string::npos);
+  const std::size_t nodes = films.network.nodes.size(), faces = films.network.triangles.size();
+  EXPECT_NE(ply.header.find("element vertex " + std::to_string(nodes) + "\n"), std::string::npos);
+  EXPECT_NE(ply.header.find("element face " + std::to_string(faces) + "\n"), std::string::npos);
+  constexpr std::size_t kNode = 3 * sizeof(float), kFace = 1 + 3 * 4 + 2 * 8 + 4;
+  ASSERT_EQ(ply.body.size(), nodes * kNode + faces * kFace);
+  std::map<std::pair<int, int>, float> curvature;
+  for (std::size_t f = 0; f < faces; ++f) {
+    const std::size_t face = nodes * kNode + f * kFace;
+    ASSERT_EQ(ply.at<std::uint8_t>(face), 3);
+    std::array<Eigen::Vector3d, 3> corner;
+    for (int c = 0; c < 3; ++c) {
+      const auto node = static_cast<std::size_t>(ply.at<std::int32_t>(face + 1 + 4 * c));
+      ASSERT_LT(node, nodes);
+      for (int a = 0; a < 3; ++a) corner[c][a] = ply.at<float>(node * kNode + sizeof(float) * a);
+    }
+    const int a = static_cast<int>(ply.at<double>(face + 13)),
+              b = static_cast<int>(ply.at<double>(face + 21));
+    const Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    EXPECT_GT(normal.dot(bubbles.position[b - 40] - bubbles.position[a - 40]), 0);
+    curvature[{a, b}] = ply.at<float>(face + 29);
+  }
+  ASSERT_EQ(curvature.size(), 6u);
+  EXPECT_EQ((curvature[{40, 42}]), 1);
+  EXPECT_EQ((curvature[{41, 43}]), 0);
 }
 
 TEST(LiquidCache, FrameReadsBack) {
