@@ -96,7 +96,8 @@ class Mesher {
     if (edges_.empty() && outline.arc > 0) addArc(outline, outline.centre + outline.discRadius * across, {});
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const FilmEdge &edge = edges_[e], &next = edges_[(e + 1) % edges_.size()];
-      Side side{edge.third >= 0 ? Side::Kind::border : Side::Kind::wall, edge.third, {}, edge.from, edge.to};
+      Side side{edge.third >= 0 ? Side::Kind::border : Side::Kind::wall, edge.third, Vector3d::Zero(),
+                edge.from, edge.to};
       if (edge.third < 0) {
         const Vector3d out = (edge.to - edge.from).cross(outline.normal).normalized();
         side.wallNormal = (edge.lean * film.distance * outline.normal + edge.reach * out).normalized();
@@ -122,7 +123,8 @@ class Mesher {
       return outline.centre + std::cos(angle * p / pieces) * start + std::sin(angle * p / pieces) * square;
     };
     for (int p = 0; p < pieces; ++p)
-      sides_.push_back({Side::Kind::arc, -1, {}, at(p), at((p + 1) % (to ? pieces + 1 : pieces))});
+      sides_.push_back(
+          {Side::Kind::arc, -1, Vector3d::Zero(), at(p), at((p + 1) % (to ? pieces + 1 : pieces))});
   }
 
   std::int32_t newNode(const Vector3d& x, NodeHold hold = NodeHold::none,
@@ -254,6 +256,15 @@ class Mesher {
 };
 
 }  // namespace
+
+double FilmNetwork::areaOf(const NetworkFilm& film) const {
+  double area = 0;
+  for (std::int32_t t = film.firstTriangle; t < film.endTriangle; ++t) {
+    const auto& [a, b, c] = triangles[t];
+    area += (at(film, b) - at(film, a)).cross(at(film, c) - at(film, a)).norm() / 2;
+  }
+  return area;
+}
 
 FilmNetwork meshFilms(const BubbleStore& bubbles, const FoamTopology& topology, const Neighbours& neighbours,
                       const std::vector<NearWalls>& walls, int segments) {

@@ -62,6 +62,7 @@ struct FilmNetwork {
   std::vector<std::array<std::int32_t, 2>> borderOfSlot;
   std::size_t torn = 0;  ///< borders that their three films do not agree about, by round-off; held fixed
 
+  double areaOf(const NetworkFilm& film) const;  ///< [m^2]
   const Eigen::Vector3d& at(const NetworkFilm& film, std::int32_t corner) const {
     return nodes[slots[film.firstSlot + corner]].position;
   }

@@ -7,6 +7,7 @@
 #include "apps/reproduce/foam_studies.h"
 #include "apps/reproduce/plateau_angles.h"
 #include "foam/power_cells.h"
+#include "foam/soap_films.h"
 #include "foam/volume_newton.h"
 
 namespace spume::apps {
@@ -182,6 +183,24 @@ struct PeriodicFoam {
   }
 };
 
+/// Area/V^(2/3) of the middle cell of Kelvin's lattice with soap films. The films at the lattice's border
+/// stay plane; two cells further in they no longer matter.
+double relaxedKelvin() {
+  constexpr int kEdge = 5, kMiddle = 2 * (2 * kEdge * kEdge + 2 * kEdge + 2), kSegments = 4;
+  foam::BubbleStore bubbles;
+  for (int i = 0; i < kEdge; ++i)
+    for (int j = 0; j < kEdge; ++j)
+      for (int k = 0; k < kEdge; ++k)
+        for (const double shift : {0.0, 0.5})
+          bubbles.add({.position = Vector3d(i + shift, j + shift, k + shift), .radius = 0.7});
+  const foam::SoapFilms films = foam::soapFilms(bubbles, kSegments, {.areaTolerance = 3e-6});
+  double area = 0;
+  for (const foam::NetworkFilm& film : films.network.films)
+    if (film.i == kMiddle || film.j == kMiddle) area += films.network.areaOf(film);
+  constexpr double kCellVolume = 0.5;  // of the lattice
+  return area / std::pow(kCellVolume, 2.0 / 3);
+}
+
 /// G5: Kelvin's cells.
 std::vector<ResultRow> kelvin(const StudyContext&) {
   const PeriodicFoam foam({{0, 0, 0}, {.5, .5, .5}}, {.6, .6}, 1);
@@ -196,7 +215,12 @@ std::vector<ResultRow> kelvin(const StudyContext&) {
                 .quantity = "above the relaxed foam",
                 .reference = "5.306",
                 .source = "Weaire and Phelan 1994"};
-  return {aimAtMost(area, ratio / exact - 1, 1e-10, "-"), reportOnly(gap, 100 * (ratio / 5.306 - 1), "%")};
+  ResultRow soap = gap;
+  soap.resolution = "lattice, soap films";
+  soap.note = "foam/soap_films, 16 triangles for every side of a film";
+  constexpr double kRelaxed = 5.306;
+  return {aimAtMost(area, ratio / exact - 1, 1e-10, "-"), reportOnly(gap, 100 * (ratio / kRelaxed - 1), "%"),
+          aimAtMost(soap, 100 * std::abs(relaxedKelvin() / kRelaxed - 1), 0.03, "%")};
 }
 
 /// G6: the sites of Weaire and Phelan, with weights that make the volumes equal.

@@ -55,17 +55,6 @@ Vector3d fromRim(const FilmNetwork& network, const NetworkFilm& film, std::int32
   return (in - along * along.dot(in)).normalized();
 }
 
-double areaOf(const FilmNetwork& network, const NetworkFilm& film) {
-  double area = 0;
-  for (std::int32_t t = film.firstTriangle; t < film.endTriangle; ++t) {
-    const auto& [a, b, c] = network.triangles[t];
-    area +=
-        (network.at(film, b) - network.at(film, a)).cross(network.at(film, c) - network.at(film, a)).norm() /
-        2;
-  }
-  return area;
-}
-
 /// Volume and area of each bubble as far as films close it.
 struct Closed {
   std::vector<double> volume, area;
@@ -79,7 +68,7 @@ Closed closedBy(const FilmNetwork& network, std::size_t bubbles) {
       volume += network.at(film, a).dot(network.at(film, b).cross(network.at(film, c))) / 6;
     }
     closed.volume[film.i] += volume, closed.volume[film.j] -= volume;
-    for (const std::int32_t bubble : {film.i, film.j}) closed.area[bubble] += areaOf(network, film);
+    for (const std::int32_t bubble : {film.i, film.j}) closed.area[bubble] += network.areaOf(film);
   }
   return closed;
 }
@@ -124,7 +113,7 @@ TEST(FilmNetwork, HasTheFilmsOfTheCellsItIsMadeFrom) {
     const auto known = std::find_if(topology.films.begin(), topology.films.end(),
                                     [&](const Film& f) { return f.i == film.i && f.j == film.j; });
     ASSERT_NE(known, topology.films.end());
-    const double area = areaOf(network, film);
+    const double area = network.areaOf(film);
     const double disc = std::numbers::pi * (std::pow(balls.radius[film.i], 2) - std::pow(known->height, 2));
     EXPECT_NEAR(area, known->area, kArc * disc);
     meshed += area;
