@@ -1,6 +1,7 @@
 #include "foam/kept_geometry.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "foam/parallel.h"
 

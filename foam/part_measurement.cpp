@@ -1,6 +1,7 @@
 #include "foam/part_measurement.h"
 
 #include <atomic>
+#include <utility>
 
 #include "foam/parallel.h"
 

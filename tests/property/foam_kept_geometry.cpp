@@ -2,7 +2,9 @@
 // bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "foam/kept_geometry.h"
 #include "foam/space_order.h"
