@@ -5,6 +5,7 @@
 #include "coupling/foam_objects.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
+#include "foam/volume_correction.h"
 
 namespace spume::coupling {
 namespace {
@@ -24,6 +25,8 @@ BubbleSupply::BubbleSupply(const Scene& scene)
     : sources_(scene),
       kills_(scene.bubbleKills),
       solution_(scene.dissolvedGas),
+      radiusOnExchange_(foam::holdsVolumes(foamParamsOf(scene)) ? foam::Radius::stays
+                                                                : foam::Radius::follows),
       nucleation_(nucleationParamsOf(scene)),
       lower_(scene.domain.lower),
       upper_(gridOf(scene).upper()),
@@ -99,7 +102,8 @@ void BubbleSupply::dissolve(double now, double dt, const foam::LiquidSampler& li
   foam::Surroundings around;
   around.sampleFlow(liquid, bubbles.positions());
   std::vector<std::uint8_t> dissolved;
-  double taken = exchangeGas(solution_, concentration(state, change.volume), around, dt, bubbles, dissolved);
+  double taken = exchangeGas(solution_, concentration(state, change.volume), around, dt, radiusOnExchange_,
+                             bubbles, dissolved);
   for (std::size_t i = 0; i < dissolved.size(); ++i) {
     if (!dissolved[i]) continue;
     taken -= bubbles.gas[i];

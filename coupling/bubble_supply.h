@@ -51,6 +51,7 @@ class BubbleSupply {
   const BubbleSources sources_;
   const std::vector<BubbleKillSpec> kills_;
   const foam::DissolvedGasParams solution_;
+  const foam::Radius radiusOnExchange_;
   std::vector<foam::NucleationParams> nucleation_;
   Eigen::Vector3d lower_, upper_;  ///< of the domain [m]
   std::uint64_t seed_;

@@ -111,9 +111,21 @@ struct VdbLiquidSampler::Source {
   void lookAtFaces() const {
     isKnown = fluid::MacField<std::uint8_t>(grid.cells);
     for (int axis = 0; axis < 3; ++axis)
-      fluid::forEachCell(isKnown[axis].size(), [&](int i, int j, int k) {
-        isKnown[axis](i, j, k) = knowsPressure(axis, {i, j, k});
-      });
+      fluid::forEachRow(isKnown[axis].size(), [&](int i, int j) { lookAtRow(axis, i, j); });
+  }
+
+  /// Sets isKnown for the faces (i, j, k) of a row. Faces at its ends have a cell on one side alone.
+  void lookAtRow(int axis, int i, int j) const {
+    const int along = axis == 2 ? 1 : 0, count = isKnown[axis].size().z();
+    const auto look = [&](int k) { isKnown[axis](i, j, k) = knowsPressure(axis, {i, j, k}); };
+    const Eigen::Vector3i plus = Eigen::Vector3i(i, j, 0).cwiseMin(grid.cells - Eigen::Vector3i::Ones());
+    const Eigen::Vector3i minus = (Eigen::Vector3i(i, j, 0) - Eigen::Vector3i::Unit(axis)).cwiseMax(0);
+    const float *open = &solids->open[axis](i, j, 0), *phiPlus = &(*phi)(plus),
+                *phiMinus = &(*phi)(minus)-along;
+    std::uint8_t* known = &isKnown[axis](i, j, 0);
+    for (int k = along; k < count - along; ++k)
+      known[k] = (open[k] > 0) & ((phiPlus[k] < 0) | (phiMinus[k] < 0));
+    if (along != 0) look(0), look(count - 1);
   }
 
   /// `looked`: all faces have been looked at.

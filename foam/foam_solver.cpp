@@ -11,6 +11,7 @@
 #include "foam/classification.h"
 #include "foam/errors.h"
 #include "foam/integrator.h"
+#include "foam/kept_geometry.h"
 #include "foam/lifetime.h"
 #include "foam/near_walls.h"
 #include "foam/neighbours.h"
@@ -87,6 +88,7 @@ struct FoamSolver::Internals {
   Integrator integrator;
   WallCells cells;
   VolumePatch patch;
+  KeptGeometry kept;  ///< of the last step's end; what comes of it does not depend on it
   FoamTopology topology;
   std::vector<std::uint64_t> topologyId;  ///< ids of the topology's rows
   Neighbours neighbours;
@@ -111,9 +113,11 @@ struct FoamSolver::Internals {
   std::vector<std::ptrdiff_t> rowsOfTopology(const BubbleStore& bubbles) const;
   void findWalls(const LiquidSampler& liquid);
   void measure();
+  void measureStart();
   void noteImpulses(double dt);
   void sampleEnd(const LiquidSampler& liquid);
   void endLivesAndReport(double dt, FoamStepReport& report);
+  std::vector<std::int32_t> livingRows() const;
   void removeEnded();
   void holdVolumes(const LiquidSampler& liquid);
   void summarise(const BubbleStore& bubbles, FoamStepReport& report) const;
@@ -164,6 +168,14 @@ void FoamSolver::Internals::measure() {
   topologyId = next.id;
 }
 
+/// As measure(), from what the last step has left.
+void FoamSolver::Internals::measureStart() {
+  if (kept.renew(next, walls, topology, neighbours))
+    topologyId = next.id;
+  else
+    measure();
+}
+
 /// Corrects the radii where the bubbles have come to, until every cell holds its gas.
 void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
   around.sampleSolids(liquid, next.positions());
@@ -172,13 +184,16 @@ void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
     measure();
     noteVolumes(topology, next);
     const std::vector<std::int32_t> off = cellsOff(next, params.volumeTolerance);
-    if (off.empty() || pass == kVolumePasses) return;
+    if (off.empty() || pass == kVolumePasses) break;
     const double few = pass == 0 ? kFewAtFirst : kFewCells;
     if (static_cast<double>(off.size()) > few * static_cast<double>(next.size()))
       projectVolumes(params, topology, neighbours, {}, next);
-    else if (patch.settle(params, walls, topology, neighbours, next))
-      return;
+    else {
+      patch.settle(params, walls, topology, neighbours, next);
+      break;
+    }
   }
+  kept.note(next, walls);
 }
 
 void FoamSolver::Internals::noteImpulses(double dt) {
@@ -220,19 +235,37 @@ void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report)
   }
 }
 
+/// The rows that are left; where volumes are held, in the order in which the next step will take them, so
+/// that it can use the geometry that is measured of them.
+std::vector<std::int32_t> FoamSolver::Internals::livingRows() const {
+  std::vector<std::int32_t> rows;
+  if (!holdsVolumes(params)) {
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (rowOf[order[i]] >= 0) rows.push_back(static_cast<std::int32_t>(i));
+    return rows;
+  }
+  std::vector<std::int32_t> living, place;
+  for (const std::int32_t row : rowOf)
+    if (row >= 0) living.push_back(row);
+  std::vector<Eigen::Vector3d> at(living.size());
+  for (std::size_t k = 0; k < living.size(); ++k) at[k] = next.position[living[k]];
+  sortInSpace(at, place);
+  for (const std::int32_t k : place) rows.push_back(living[k]);
+  return rows;
+}
+
 /// Drops the rows of ended lives, so that the others' cells take their places before they are measured.
 void FoamSolver::Internals::removeEnded() {
-  std::vector<std::int32_t> rows;
-  for (std::size_t i = 0; i < next.size(); ++i)
-    if (rowOf[order[i]] >= 0) rows.push_back(static_cast<std::int32_t>(i));
-  if (rows.size() == next.size()) return;
+  const std::vector<std::int32_t> rows = livingRows();
   living.gather(next, rows);
   std::swap(next, living);
+  const std::vector<std::int32_t> former = order;
+  const Eigen::VectorXd phi = phiEnd;
+  order.resize(rows.size()), phiEnd.resize(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    order[k] = order[rows[k]], phiEnd[k] = phiEnd[rows[k]];
+    order[k] = former[rows[k]], phiEnd[k] = phi[rows[k]];
     rowOf[order[k]] = static_cast<std::int32_t>(k);
   }
-  order.resize(rows.size()), phiEnd.conservativeResize(static_cast<Eigen::Index>(rows.size()));
 }
 
 void FoamSolver::Internals::summarise(const BubbleStore& bubbles, FoamStepReport& report) const {
@@ -273,7 +306,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   s.around.sample(liquid, s.next.positions());
   clock.end("sample");
   s.findWalls(liquid);
-  s.measure();
+  s.measureStart();
   clock.end("geometry");
   s.drift.find(s.params, s.around, s.topology, s.neighbours, s.walls, s.next, dt);
   clock.end("borders");

@@ -55,7 +55,7 @@ double exchangedRadius(const DissolvedGasParams& params, double concentration, d
 }
 
 double exchangeGas(const DissolvedGasParams& params, double concentration, const Surroundings& around,
-                   double dt, BubbleStore& bubbles, std::vector<std::uint8_t>& dissolved) {
+                   double dt, Radius radius, BubbleStore& bubbles, std::vector<std::uint8_t>& dissolved) {
   const std::size_t n = bubbles.size();
   dissolved.assign(n, 0);
   std::vector<double> taken(n, 0.0);
@@ -72,7 +72,7 @@ double exchangeGas(const DissolvedGasParams& params, double concentration, const
     }
     taken[i] = (share - 1) * bubbles.gas[i];
     bubbles.gas[i] *= share;
-    bubbles.radius[i] *= std::cbrt(share);
+    if (radius == Radius::follows) bubbles.radius[i] *= std::cbrt(share);
   });
   double sum = 0;
   for (const double gas : taken) sum += gas;

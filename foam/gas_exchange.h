@@ -35,10 +35,15 @@ double exchangedRadius(const DissolvedGasParams& params, double concentration, d
 /// A bubble smaller than this has dissolved [m]: Laplace's pressure does the rest within milliseconds.
 inline constexpr double kSmallestBubble = 2e-6;
 
+/// What a radius does when its bubble's gas changes.
+enum class Radius { follows, stays };
+
 /// Lets the immersed part of every bubble exchange gas for dt [s] with liquid of the given concentration
-/// [mol/m^3]: gas and radius follow. Sets `dissolved` (one flag per bubble) of those that vanish, whose gas
-/// the caller gives back with them, and returns the gas the others took up, < 0 if they gave it [m^3].
+/// [mol/m^3]: the gas follows, and with `Radius::follows` the radius. Where volumes are held at the end of
+/// each step (holdsVolumes), radii come after then, and stay as geometry was measured with them until. Sets
+/// `dissolved` (one flag per bubble) of those that vanish, whose gas the caller gives back with them, and
+/// returns the gas the others took up, < 0 if they gave it [m^3].
 double exchangeGas(const DissolvedGasParams& params, double concentration, const Surroundings& around,
-                   double dt, BubbleStore& bubbles, std::vector<std::uint8_t>& dissolved);
+                   double dt, Radius radius, BubbleStore& bubbles, std::vector<std::uint8_t>& dissolved);
 
 }  // namespace spume::foam

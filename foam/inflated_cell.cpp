@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "foam/lane_math.h"
+#include "foam/short_sort.h"
 
 namespace spume::foam {
 
@@ -42,6 +43,15 @@ double marginOf(double x, double size) {
   constexpr double kFar = 0x1p40, kSlack = 1e-3;
   return std::abs(x) < kFar * size ? kSlack * size : std::numeric_limits<double>::max() / 8;
 }
+
+/// Sorts by nearness, and where single precision does not tell, by place.
+std::int64_t candidateOf(double nearness, std::size_t place) {
+  const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(nearness));
+  const std::int64_t ascending = bits ^ (bits >> 31 & std::numeric_limits<std::int32_t>::max());
+  return ascending << 32 | static_cast<std::int64_t>(place);
+}
+
+std::int32_t placeOf(std::int64_t candidate) { return static_cast<std::int32_t>(candidate); }
 
 }  // namespace
 
@@ -118,12 +128,13 @@ bool InflatedCell::cutByNearest(const Vicinity& vicinity, std::size_t begin, std
 /// The same by those sites whose nearness is above `from` and at most `to` [m^2].
 bool InflatedCell::cutByHeights(const Vicinity& vicinity, std::size_t begin, std::size_t end, double from,
                                 double to) {
-  candidates_.clear();
+  count_ = 0;
+  if (candidates_.size() < end - begin) candidates_.resize(2 * (end - begin));
   for (std::size_t k = begin; k < end; k += kLanes)
     addCandidates(vicinity, k, std::min(end, k + kLanes), from, to);
-  std::sort(candidates_.begin(), candidates_.end());
-  for (const Candidate& candidate : candidates_)
-    if (!cutBy(vicinity, candidate.place)) return false;
+  sortShort(candidates_, count_, sorted_);
+  for (const std::int64_t candidate : sorted_)
+    if (!cutBy(vicinity, placeOf(candidate))) return false;
   return true;
 }
 
@@ -143,7 +154,7 @@ void InflatedCell::addCandidates(const Vicinity& vicinity, std::size_t k, std::s
       ((most(dx, 0) + most(dy, 1) + most(dz, 2) > offset) | (d2 == 0)) & (nearness > from) & (nearness <= to);
   for (std::uint32_t bits = bitsOf(meets); bits != 0; bits &= bits - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-    if (k + lane < end) candidates_.push_back({nearness[lane], static_cast<std::int32_t>(k + lane)});
+    if (k + lane < end) candidates_[count_++] = candidateOf(nearness[lane], k + lane);
   }
 }
 

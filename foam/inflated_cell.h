@@ -27,12 +27,6 @@ class InflatedCell {
   bool sharesFace(std::size_t k);
 
  private:
-  struct Candidate {
-    double nearness;     ///< signed square of the height of its plane [m^2]
-    std::int32_t place;  ///< in the vicinity
-    bool operator<(const Candidate& other) const { return nearness < other.nearness; }
-  };
-
   bool grow(Vicinity& vicinity);
   bool noneBeyond(double seen);
   void weighRing(std::int64_t ring);
@@ -49,7 +43,10 @@ class InflatedCell {
   double reach_ = 0;  ///< radius of the inflated ball [m]
   ConvexCell cell_;
   SiteGrid::Worth worth_;
-  std::vector<Candidate> candidates_;
+  /// Sites to cut by: the signed square of the height of the plane [m^2], in single precision as a number
+  /// that sorts as it does, and below it the place in the vicinity.
+  std::vector<std::int64_t> candidates_, sorted_;
+  std::size_t count_ = 0;                     ///< of candidates
   std::vector<Neighbour> face_, neighbours_;  ///< behind each face the cell has had; of those that are left
   std::vector<ConvexCell::Face> left_;        ///< the faces that are, in the order of the neighbours
   std::vector<std::int32_t> unsure_;

@@ -29,8 +29,11 @@ struct LoneBubble {
 
   /// Buoyancy and liquid adhesion at a signed distance from the surface [N].
   Eigen::Vector3d surfaceForce(double phiAt) const;
+  /// Its part along `up`, for a full buoyancy whose part along it is `lift` [N].
+  double surfacePull(double phiAt, double lift) const;
   /// d (up . surfaceForce) / d phi [N/m], <= 0: a growing force is frozen.
-  double surfaceStiffness(double phiAt) const;
+  double surfaceStiffness(double phiAt) const { return surfaceStiffness(phiAt, fullBuoyancy.dot(up)); }
+  double surfaceStiffness(double phiAt, double lift) const;
   /// All but the wall at the end of a step of dt [s] with velocity v [N].
   Eigen::Vector3d force(const Eigen::Vector3d& v, double dt) const;
 };

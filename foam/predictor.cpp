@@ -17,19 +17,23 @@ constexpr int kNewtonSteps = 60;  // bisection alone reaches round-off within th
 constexpr double kRootTolerance =
     1e-13;  // relative to the bracket: well above round-off, far below any force that matters
 
-/// Root of an increasing function in [low, high], Newton kept inside the bracket. `f(x)` returns {value,
-/// slope}.
+/// Where a root lies, and how well it has to be known.
+struct Bracket {
+  double low, high;
+  double resolution = kRootTolerance * std::max({std::abs(low), std::abs(high), high - low});
+};
+
+/// Root of an increasing function in the bracket, Newton kept inside it. `f(x)` returns {value, slope}.
 template <typename Function>
-double increasingRoot(const Function& f, double low, double high, double guess) {
-  const double resolution = kRootTolerance * std::max({std::abs(low), std::abs(high), high - low});
-  double x = std::clamp(guess, low, high);
-  for (int step = 0; step < kNewtonSteps && high - low > resolution; ++step) {
+double increasingRoot(const Function& f, Bracket in, double guess) {
+  double x = std::clamp(guess, in.low, in.high);
+  for (int step = 0; step < kNewtonSteps && in.high - in.low > in.resolution; ++step) {
     const auto [value, slope] = f(x);
     if (value == 0) return x;
-    (value > 0 ? high : low) = x;
+    (value > 0 ? in.high : in.low) = x;
     double next = x - value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) <= resolution) return next;
+    if (std::abs(next - x) <= in.resolution) return next;  // before round-off takes it for out of the bracket
+    if (!(next > in.low && next < in.high)) next = 0.5 * (in.low + in.high);
     x = next;
   }
   return x;
@@ -43,6 +47,7 @@ struct SlipEquation {
   double dragPerStep;  ///< dt k
   Vector3d momentum;   ///< m w0 + dt (constant forces - a u): all but the surface force
   double pull;         ///< of the momentum along grad phi [N s]
+  double lift;         ///< of the full buoyancy along grad phi [N]
   double phiAtRest;    ///< at the end of the step without slip [m]
 
   SlipEquation(const LoneBubble& b, double step)
@@ -51,7 +56,7 @@ struct SlipEquation {
         inertia(b.mass + step * (b.airDrag + b.viscousDrag)),
         dragPerStep(step * b.drag) {
     momentum = b.mass * (b.velocity - b.liquidVelocity) + step * (b.weight - b.airDrag * b.liquidVelocity);
-    pull = b.up.dot(momentum);
+    pull = b.up.dot(momentum), lift = b.up.dot(b.fullBuoyancy);
     phiAtRest = b.phiAfter(b.liquidVelocity, step);
   }
 
@@ -60,31 +65,44 @@ struct SlipEquation {
 
   /// {value, slope} of the equation along grad phi for the slip `along`, the slip across it being known.
   std::pair<double, double> alongSurface(double along, double across) const {
-    const double speed = speedOf(along, across), at = phiAt(along);
+    const double speed = dragPerStep > 0 ? speedOf(along, across) : 0, at = phiAt(along);
     const double drag = dragPerStep * speed;
     const double dragSlope = speed > 0 ? dragPerStep * (speed + along * along / speed) : 0;
-    const double force = bubble.up.dot(bubble.surfaceForce(at));
-    const double stiffness = dt * bubble.phiSlope * bubble.surfaceStiffness(at);
+    const double force = bubble.surfacePull(at, lift);
+    const double stiffness = dt * bubble.phiSlope * bubble.surfaceStiffness(at, lift);
     return {(inertia + drag) * along - pull - dt * force, inertia + dragSlope - dt * stiffness};
   }
 
-  /// Slip along grad phi.
-  double solveAlong(double across, double guess) const {
+  /// Slip along grad phi; `near`: the guess is the answer for nearly the same slip across it.
+  double solveAlong(double across, double guess, bool near) const {
     // The surface force lies between these two whatever the path, so the root does too.
     const double reach = bubble.fullBuoyancy.norm() + bubble.adhesion * bubble.radius;
-    const double low = std::min((pull - dt * reach) / inertia, 0.0),
-                 high = std::max((pull + dt * reach) / inertia, 0.0);
-    return increasingRoot([&](double along) { return alongSurface(along, across); }, low, high, guess);
+    Bracket in{std::min((pull - dt * reach) / inertia, 0.0), std::max((pull + dt * reach) / inertia, 0.0)};
+    const auto balance = [&](double along) { return alongSurface(along, across); };
+    if (!near)
+      for (const double end : {-bubble.radius, bubble.radius}) narrow(balance, slipTo(end), in);
+    return increasingRoot(balance, in, guess);
+  }
+
+  /// Slip along grad phi that ends the step at a signed distance from the surface; none if no slip does.
+  double slipTo(double phi) const { return (phi - phiAtRest) / (dt * bubble.phiSlope); }
+
+  /// The bubble dips into the surface in a small part of the bracket only, and elsewhere the force does not
+  /// change: Newton from the one side would not find its way to the root on the other.
+  template <typename Function>
+  static void narrow(const Function& balance, double at, Bracket& in) {
+    if (at > in.low && at < in.high) (balance(at).first > 0 ? in.high : in.low) = at;
   }
 
   /// Size of the slip across grad phi under a momentum of size p, the slip along it being known.
   double solveAcross(double p, double along, double guess) const {
+    if (dragPerStep == 0) return p / inertia;
     const auto balance = [&](double across) {
       const double speed = speedOf(along, across);
       const double slope = speed > 0 ? dragPerStep * (speed + across * across / speed) : 0;
       return std::pair((inertia + dragPerStep * speed) * across - p, inertia + slope);
     };
-    return increasingRoot(balance, 0, p / inertia, p / (inertia + dragPerStep * speedOf(along, guess)));
+    return increasingRoot(balance, {0, p / inertia}, p / (inertia + dragPerStep * speedOf(along, guess)));
   }
 };
 
@@ -94,12 +112,13 @@ Vector3d slipAtSurface(const SlipEquation& equation) {
   double along = b.up.dot(start);
   Vector3d across = start - along * b.up;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    along = equation.solveAlong(across.norm(), along);
+    along = equation.solveAlong(across.norm(), along, sweep > 0);
     const Vector3d total = equation.momentum + equation.dt * b.surfaceForce(equation.phiAt(along));
     const Vector3d sideways = total - b.up.dot(total) * b.up;
     const double p = sideways.norm();
     if (p == 0) return along * b.up;
     across = equation.solveAcross(p, along, across.norm()) / p * sideways;
+    if (equation.dragPerStep == 0) break;  // nothing but drag knows of both
   }
   return along * b.up + across;
 }

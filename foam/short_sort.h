@@ -11,9 +11,11 @@ namespace spume::foam {
 /// below it, whole registers at a time and without a branch; long ones, where that would be quadratic, by
 /// comparison. Sorts the first `count` of `from`, which has room for whole registers and loses what lies
 /// behind them.
-inline void sortShort(std::vector<std::int32_t>& from, std::size_t count, std::vector<std::int32_t>& to) {
-  constexpr std::size_t kBlock = 16, kLongest = 96;  // longer ones are slower to count, as measured
-  using Block [[gnu::vector_size(kBlock * sizeof(std::int32_t))]] = std::int32_t;
+template <typename Integer>
+void sortShort(std::vector<Integer>& from, std::size_t count, std::vector<Integer>& to) {
+  constexpr std::size_t kBlock = 64 / sizeof(Integer),
+                        kLongest = 96;  // longer ones are slower to count, as measured
+  using Block [[gnu::vector_size(64)]] = Integer;
   to.resize(count);
   if (count > kLongest) {
     std::copy_n(from.begin(), count, to.begin());
@@ -23,7 +25,7 @@ inline void sortShort(std::vector<std::int32_t>& from, std::size_t count, std::v
   const std::size_t padded = (count + kBlock - 1) / kBlock * kBlock;
   if (from.size() < padded) from.resize(padded);
   std::fill(from.begin() + static_cast<std::ptrdiff_t>(count),
-            from.begin() + static_cast<std::ptrdiff_t>(padded), std::numeric_limits<std::int32_t>::max());
+            from.begin() + static_cast<std::ptrdiff_t>(padded), std::numeric_limits<Integer>::max());
   for (std::size_t block = 0; block < padded; block += kBlock) {
     Block values, below = {};
     __builtin_memcpy(&values, &from[block], sizeof values);

@@ -16,6 +16,26 @@ inline constexpr double kCutByWall = 0.98;
 /// Whether there is a bubble of `radius` [m] whose distance `psi` [m] to the nearest solid is that small.
 bool isAnyCutByWall(const std::vector<double>& radius, const Eigen::VectorXd& psi);
 
+/// The balls that stand for the planes of solids, those of a bubble one after the other.
+struct WallPlanes {
+  std::vector<std::int32_t> owner;        ///< row of the bubble, ascending
+  std::vector<Eigen::Vector3d> position;  ///< [m]
+  std::vector<double> radius;             ///< [m]
+  std::vector<std::uint64_t> id;          ///< breaks ties as an id of its own
+  std::vector<std::int32_t> behind;       ///< rows of the bubbles wholly behind a plane
+
+  /// Lists those of all bubbles. `walls` as WallCells::compute takes them.
+  void list(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
+
+ private:
+  void add(const BubbleStore& bubbles, const NearWalls& walls, std::size_t i);
+
+  std::vector<std::uint8_t> isCut_;  ///< has a wall so near: few of all
+};
+
+/// Whether a bubble of `radius` [m] is cut by walls `a` as by walls `b`, to the last bit.
+bool cutAlike(double radius, const NearWalls& a, const NearWalls& b);
+
 /// Power cells of bubbles at solids, cut by the planes of the solids, exactly. A plane enters the power
 /// diagram as a ball behind it: one at x - r n of squared radius 2 r (r - psi) has the plane as its radical
 /// plane with the bubble, and is the farther of the two, as power goes, from every point on the free side. So
@@ -31,12 +51,8 @@ class WallCells {
   void listNeighbours(Neighbours& out) const { cells_.listNeighbours(out); }
 
  private:
-  void listCut(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
-  void addPlanes(const BubbleStore& bubbles, const std::vector<NearWalls>& walls);
-
   PowerCells cells_;
-  std::vector<std::uint8_t> isCut_;
-  std::vector<std::size_t> cut_;           ///< bubbles with a wall so near: few of all
+  WallPlanes planes_;
   std::vector<Eigen::Vector3d> position_;  ///< of the bubbles, then of the balls behind planes [m]
   std::vector<double> radius_;
   std::vector<std::uint64_t> id_;

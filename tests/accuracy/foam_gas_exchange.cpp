@@ -89,7 +89,7 @@ TEST(GasExchange, TakesOnlyThroughTheImmersedPartAndBooksIt) {
   for (const double gas : bubbles.gas) before += gas;
   std::vector<std::uint8_t> dissolved;
   const DissolvedGasParams gas;
-  const double taken = exchangeGas(gas, gas.concentration, around, 0.1, bubbles, dissolved);
+  const double taken = exchangeGas(gas, gas.concentration, around, 0.1, Radius::follows, bubbles, dissolved);
   for (const double g : bubbles.gas) after += g;
   EXPECT_NEAR(after - before, taken, 1e-12 * before);
   const double v = ballVolume(0.5e-3), under = bubbles.gas[0] - v, afloat = bubbles.gas[1] - v;

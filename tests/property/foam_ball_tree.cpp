@@ -87,17 +87,23 @@ TEST(RadixSort, SortsByAsManyBitsAsAskedAndLeavesTies) {
   }
 }
 
-TEST(ShortSort, SortsListsOfAnyLength) {
-  for (std::size_t count : {0u, 1u, 15u, 16u, 17u, 95u, 96u, 97u, 300u}) {
-    std::vector<std::int32_t> expected(count), sorted;
-    std::iota(expected.begin(), expected.end(), -20);
-    std::vector<std::int32_t> shuffled = expected;
+template <typename Integer>
+void expectSorted(Integer step) {
+  for (std::size_t count : {0u, 1u, 7u, 8u, 9u, 15u, 16u, 17u, 95u, 96u, 97u, 300u}) {
+    std::vector<Integer> expected(count), sorted;
+    for (std::size_t k = 0; k < count; ++k) expected[k] = step * (static_cast<Integer>(k) - 20);
+    std::vector<Integer> shuffled = expected;
     for (std::size_t k = 1; k < count; ++k)
       std::swap(shuffled[k], shuffled[CounterRandom(1, k, 2).bits() % (k + 1)]);
-    shuffled.push_back(-1000);  // behind the last: not to be sorted
+    shuffled.push_back(-1000 * step);  // behind the last: not to be sorted
     sortShort(shuffled, count, sorted);
     EXPECT_EQ(sorted, expected);
   }
+}
+
+TEST(ShortSort, SortsListsOfAnyLength) {
+  expectSorted<std::int32_t>(1);
+  expectSorted<std::int64_t>(std::int64_t{1} << 40);
 }
 
 }  // namespace
