@@ -49,14 +49,14 @@ Quad padded(const Eigen::Vector3d& v) {
 }  // namespace
 
 BlockPcg::Result BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor,
-                                   const CoarseCorrection& coarse, double norm, double goal,
-                                   int maxIterations, Vectors3& b, Vectors3& x) {
+                                   const CoarseCorrection& coarse, double goal, int maxIterations,
+                                   Vectors3& b, Vectors3& x) {
   state_.resize(a.size()), image_.resize(a.size());
   known_.resize(2 * a.size() + 2);
   forEachIndex(known_.size(), [&](std::size_t k) { known_[k].setZero(); });
   Result result = {};
   Crew::lead(a.tasks(),
-             [&](Crew& crew) { result = iterate(crew, a, factor, coarse, b, norm, goal, maxIterations); });
+             [&](Crew& crew) { result = iterate(crew, a, factor, coarse, b, goal, maxIterations); });
   const double squares = reduceIndices(
       a.size(), 0.0,
       [&](std::size_t k) {
@@ -75,11 +75,11 @@ BlockPcg::Result BlockPcg::improve(const SweptSystem& a, const IncompleteCholesk
 
 /// Leaves the solution in the states' sums.
 BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-                                   const CoarseCorrection& coarse, const Vectors3& b, double norm,
-                                   double goal, int maxIterations) {
+                                   const CoarseCorrection& coarse, const Vectors3& b, double goal,
+                                   int maxIterations) {
   startClusters(coarse, b);
   // |r| follows the norm the iteration knows closely enough to tell when to look at it.
-  Norms known = {norm, start(crew, a, factor, b)};
+  Norms known = start(crew, a, factor, coarse, b);
   double slope = known.slope, length = 0, momentum = 0;
   int iterations = 0;
   for (; iterations < maxIterations && known.slope > 0; ++iterations) {
@@ -89,15 +89,13 @@ BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const Incom
       if (known.plain <= goal) return {iterations, true, known.plain, 0};
     }
     const double ofRows = searchBack(crew, a, factor, length, momentum);
-    turnClusters(momentum);
-    slope = ofRows + clusters_.slope;
+    slope = ofRows + turnClusters(crew, coarse, momentum);
     const Found found = searchForth(crew, a, factor, coarse);
     length = 0;
     if (!(found.curvature > 0)) break;  // not positive definite, or lost to round-off
     length = slope / found.curvature;
-    advanceClusters(coarse, length);
-    const double next =
-        std::max(0.0, ofRows + length * (length * found.square - 2 * found.alongResidual)) + clusters_.slope;
+    advanceClusters(length);
+    const double next = std::max(0.0, ofRows + length * (length * found.square - 2 * found.alongResidual));
     momentum = next / slope, slope = next;
   }
   if (length != 0)
@@ -105,41 +103,70 @@ BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const Incom
   return {iterations, false, 0, 0};
 }
 
-/// Sets the residual to b, all else to 0. Knows no search direction yet. Returns r . M^-1 r.
-double BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-                       const Vectors3& b) {
-  sumForth<1>(crew, a, sums_, [&](std::size_t, std::size_t k, DoubleQuad* of) {
+/// Sets the residual to b less what the clusters' motions do, all else to 0. Knows no search direction yet.
+BlockPcg::Norms BlockPcg::start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                                const CoarseCorrection& coarse, const Vectors3& b) {
+  const bool corrects = coarse.clusters() > 0;
+  sumForth<2>(crew, a, sums_, [&](std::size_t, std::size_t k, DoubleQuad* of) {
     const TriangularBlock& scale = factor.scale[k];
-    const Quad residual = scale.times(padded(b[a.source[k]]) - coupledWithin(a, k));
+    const Quad image = corrects ? coarse.image(k, clusters_.known.data()) : Quad{};
+    const Quad plain = padded(b[a.source[k]]) - image;
+    const Quad residual = scale.times(plain - coupledWithin(a, k));
     known_[behind(k)] = toVector(-scale.transposedTimes(residual));
     state_[k] = {Vector4f::Zero(), toVector(residual), Vector4f::Zero(), Vector4f::Zero()};
     image_[k].setZero();
-    addTo(of[0], residual * residual);
+    addTo(of[0], plain * plain), addTo(of[1], residual * residual);
   });
-  return total(0) + clusters_.slope;
+  return {std::sqrt(total(0)), total(1)};
 }
 
+/// Moves the clusters so that b pulls none of them any more.
 void BlockPcg::startClusters(const CoarseCorrection& coarse, const Vectors3& b) {
-  const std::size_t count = coarse.clusters();
+  const auto size = static_cast<Eigen::Index>(3 * coarse.clusters());
   coarse.sumUp(b, clusters_.pull);
-  coarse.solve(clusters_.pull, clusters_.answer);
-  clusters_.slope = sumOfProducts(clusters_.pull, clusters_.answer);
-  clusters_.motion.setZero(3 * count), clusters_.sum.setZero(3 * count);
-  clusters_.known.assign(count + 1, Vector4f::Zero());
+  coarse.solve(clusters_.pull, clusters_.sum);
+  coarse.stiffen(clusters_.sum, clusters_.image);
+  clusters_.pull -= clusters_.image;
+  clusters_.motion.setZero(size), clusters_.ofRows.setZero(size);
+  listMotions(clusters_.sum);
 }
 
-/// Turns their part of the search direction towards their answer to the residual.
-void BlockPcg::turnClusters(double momentum) {
+/// As rows read them.
+void BlockPcg::listMotions(const Eigen::VectorXd& motion) {
+  const std::size_t count = static_cast<std::size_t>(motion.size()) / 3;
+  clusters_.known.assign(count + 1, Vector4f::Zero());
+  for (std::size_t c = 0; c < count; ++c)
+    clusters_.known[c].head<3>() = motion.segment<3>(3 * c).cast<float>();
+}
+
+/// Adds to the search direction the motions that take from the clusters what its new part p would leave of
+/// their pull. Returns that pull times those motions.
+double BlockPcg::turnClusters(Crew& crew, const CoarseCorrection& coarse, double momentum) {
+  if (coarse.clusters() == 0) return 0;
+  clusters_.left = clusters_.pull + momentum * clusters_.ofRows;
+  pullClusters(crew, coarse);
+  clusters_.left -= clusters_.ofRows;
+  coarse.solve(clusters_.left, clusters_.answer);
   clusters_.motion = clusters_.answer + momentum * clusters_.motion;
-  for (std::size_t c = 0; c + 1 < clusters_.known.size(); ++c)
-    clusters_.known[c].head<3>() = clusters_.motion.segment<3>(3 * c).cast<float>();
+  listMotions(clusters_.motion);
+  coarse.stiffen(clusters_.motion, clusters_.image);
+  clusters_.image += clusters_.ofRows;
+  return sumOfProducts(clusters_.pull, clusters_.answer);
+}
+
+/// Finds Z^T A p.
+void BlockPcg::pullClusters(Crew& crew, const CoarseCorrection& coarse) {
+  const std::size_t count = coarse.clusters(), tasks = crew.tasks();
+  crew.forEachTask([&](std::size_t task) {
+    const FlushTiny flush;
+    for (std::size_t c = task * count / tasks; c < (task + 1) * count / tasks; ++c)
+      clusters_.ofRows.segment<3>(3 * c) = coarse.pullOf(c, known_.data());
+  });
 }
 
 /// Goes `length` along the search direction with the clusters; the rows follow in the next sweep.
-void BlockPcg::advanceClusters(const CoarseCorrection& coarse, double length) {
+void BlockPcg::advanceClusters(double length) {
   clusters_.sum += length * clusters_.motion, clusters_.pull -= length * clusters_.image;
-  coarse.solve(clusters_.pull, clusters_.answer);
-  clusters_.slope = sumOfProducts(clusters_.pull, clusters_.answer);
 }
 
 /// What couplings with rows swept later bring row `k`.
@@ -187,14 +214,13 @@ double BlockPcg::searchBack(Crew& crew, const SweptSystem& a, const IncompleteCh
 /// Finds the image q of the search direction p.
 BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
                                       const CoarseCorrection& coarse) {
-  const std::size_t count = coarse.clusters();
-  clusters_.sums.assign(a.groups() * count, Vector4f::Zero());
-  sumForth<3>(crew, a, sums_, [&](std::size_t group, std::size_t k, DoubleQuad* of) {
+  const bool corrects = coarse.clusters() > 0;
+  sumForth<3>(crew, a, sums_, [&](std::size_t, std::size_t k, DoubleQuad* of) {
     const State& s = state_[k];
     const TriangularBlock& scale = factor.scale[k];
     const Quad direction = loadQuad(s.direction), step = loadQuad(s.step);
-    const Quad known = coupledForth(a, k) - coarse.exchange(k, loadQuad(known_[k]), clusters_.known.data(),
-                                                            &clusters_.sums[group * count]);
+    const Quad ofClusters = corrects ? coarse.image(k, clusters_.known.data()) : Quad{};
+    const Quad known = coupledForth(a, k) - ofClusters;
     const Quad image = direction + factor.excess[k].times(step) - scale.times(known);
     known_[behind(k)] = toVector(-scale.transposedTimes(image));
     image_[k] = toVector(image);
@@ -202,9 +228,6 @@ BlockPcg::Found BlockPcg::searchForth(Crew& crew, const SweptSystem& a, const In
     addTo(of[0], direction * change);
     addTo(of[1], loadQuad(s.residual) * change), addTo(of[2], change * change);
   });
-  clusters_.image.setZero(3 * count);
-  for (std::size_t c = 0; c < a.groups() * count; ++c)
-    clusters_.image.segment<3>(3 * (c % count)) += clusters_.sums[c].head<3>().cast<double>();
   return {total(0) + sumOfProducts(clusters_.motion, clusters_.image), total(1), total(2)};
 }
 
@@ -229,7 +252,7 @@ BlockPcg::Norms BlockPcg::look(Crew& crew, const SweptSystem& a, const Incomplet
     for (int c = 0; c < 3; ++c) of[0][c] += plain[c] * plain[c];
     addTo(of[1], residual * residual);
   });
-  return {std::sqrt(total(0)), total(1) + clusters_.slope};
+  return {std::sqrt(total(0)), total(1)};
 }
 
 }  // namespace spume::foam

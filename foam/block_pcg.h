@@ -10,7 +10,8 @@ namespace spume::foam {
 /// that an iteration costs one product: with C = D + L and A = C + C^T + (diag A - 2 D) + E, where E couples
 /// blocks, each product with C^-1 A C^-T is a sweep back and a sweep forth [Eisenstat 1981]. Blocks are swept
 /// in parallel; sums are taken group by group, so the result does not depend on the number of threads.
-/// A CoarseCorrection adds to search directions, and to A times them, what clusters do as a whole.
+/// A CoarseCorrection adds to search directions, and to A times them, what clusters do as a whole: from the
+/// start on the residual pulls no cluster, and each direction keeps it so.
 ///
 /// All in single precision, in the coordinates in which D is the unit matrix (IncompleteCholesky): an
 /// iteration waits for memory. What rounding leaves is for the caller to find and to improve again.
@@ -23,10 +24,10 @@ class BlockPcg {
     double drift;  ///< by about how much it may be off: rounding of D e [kg m/s]
   };
   /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
-  /// as the iteration knows, or `maxIterations`; `norm` is |b|. If it gets there, b becomes b - A e, again as
+  /// as the iteration knows, or `maxIterations`. If it gets there, b becomes b - A e, again as
   /// far as it knows.
   Result improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
-                 double norm, double goal, int maxIterations, Vectors3& b, Vectors3& x);
+                 double goal, int maxIterations, Vectors3& b, Vectors3& x);
 
  private:
   /// What the iteration knows of a row, in one cache line. With G of IncompleteCholesky and the search
@@ -45,28 +46,29 @@ class BlockPcg {
   /// What the iteration knows of the clusters of a CoarseCorrection, three numbers each. The search direction
   /// is p + Z motion, where p is what the rows' states know.
   struct Clusters {
-    Eigen::VectorXd pull;                ///< Z^T r
-    Eigen::VectorXd answer;              ///< how clusters are to move for that
-    double slope = 0;                    ///< pull . answer
+    Eigen::VectorXd pull;          ///< Z^T r
+    Eigen::VectorXd ofRows;        ///< Z^T A p
+    Eigen::VectorXd left, answer;  ///< what the new part of p leaves of their pull, and motions for that
     Eigen::VectorXd motion, image, sum;  ///< of the search direction, Z^T A of it, motions so far
-    std::vector<Eigen::Vector4f> known;  ///< motion as rows read it, and a 0
-    std::vector<Eigen::Vector4f> sums;   ///< image by group, what each group's rows bring
+    std::vector<Eigen::Vector4f> known;  ///< motions as rows read them, and a 0
   };
   struct Norms {
     double plain, slope;  ///< |r|, r . M^-1 r
   };
 
   Result iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-                 const CoarseCorrection& coarse, const Vectors3& b, double norm, double goal,
-                 int maxIterations);
-  double start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, const Vectors3& b);
+                 const CoarseCorrection& coarse, const Vectors3& b, double goal, int maxIterations);
+  Norms start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+              const CoarseCorrection& coarse, const Vectors3& b);
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,
                     double momentum);
   Found searchForth(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
                     const CoarseCorrection& coarse);
   void startClusters(const CoarseCorrection& coarse, const Vectors3& b);
-  void turnClusters(double momentum);
-  void advanceClusters(const CoarseCorrection& coarse, double length);
+  void listMotions(const Eigen::VectorXd& motion);
+  double turnClusters(Crew& crew, const CoarseCorrection& coarse, double momentum);
+  void pullClusters(Crew& crew, const CoarseCorrection& coarse);
+  void advanceClusters(double length);
   Quad coupledBack(const SweptSystem& a, std::size_t k) const;
   Quad coupledWithin(const SweptSystem& a, std::size_t k) const;
   Quad coupledForth(const SweptSystem& a, std::size_t k) const;

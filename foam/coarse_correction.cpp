@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "foam/parallel.h"
@@ -11,11 +11,10 @@
 namespace spume::foam {
 namespace {
 
-/// Columns of the inverse that one task finds.
-constexpr Eigen::Index kColumns = 48;
-/// Of what would set clusters right if they moved alone: the factor has its own share of their motions, and
-/// both together would go too far (1 instead of 0.5: 56 instead of 52 iterations).
-constexpr double kShare = 0.5;
+/// Links behind the last, for whole registers to read.
+constexpr std::int32_t kPadding = 1;
+/// Rows changed, as a share of all, from which on the clusters' matrix is factored anew.
+constexpr double kManyChanges = 1e-3;
 
 /// Whether a row's neighbours hold it more stiffly than all else does.
 bool movesWithOthers(const BlockSystem& a, const SweptSystem& swept, std::size_t i) {
@@ -34,36 +33,45 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
   const std::size_t n = a.size();
   clusters_ = wanted ? std::min(kMostClusters, n / kLeastRows) : 0;
   if (clusters_ < kLeastClusters) clusters_ = 0;
-  start_.assign(n + 1, 0), cluster_.resize(n), isFree_.assign(n, 0);
+  cluster_.resize(n), isFree_.assign(n, 0);
   if (clusters_ == 0) return;
-  home_.resize(n), firstRow_.resize(clusters_ + 1);
+  firstRow_.resize(clusters_ + 1);
   for (std::size_t g = 0; g <= clusters_; ++g) firstRow_[g] = static_cast<std::int32_t>(firstRow(g));
   forEachIndex(n, [&](std::size_t i) {
     cluster_[i] = static_cast<std::int32_t>(i * clusters_ / n);
     isFree_[i] = movesWithOthers(a, swept, i);
   });
-  forEachIndex(n, [&](std::size_t k) { start_[k] = countLinks(a, swept.source[k]); });
-  std::int32_t links = 0;
-  for (std::int32_t& start : start_) links += std::exchange(start, links);
-  link_.resize(links), block_.resize(links);
-  matrix_.resize(3 * clusters_, 3 * clusters_);
-  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) { fillCluster(a, swept, g); });
-  invert();
+  findPattern(a, swept);
+  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
+    for (std::int32_t i = firstRow_[g]; i < firstRow_[g + 1]; ++i) fillRow(a, swept, i);
+    sumCluster(swept, g);
+  });
+  factor_.order(matrix_);
+  factor();
 }
 
+/// What a translation does to a row depends on which of its neighbours are free.
 void CoarseCorrection::refresh(const BlockSystem& a, const SweptSystem& swept,
                                const std::vector<std::int32_t>& rows) {
-  if (clusters_ == 0) return;
+  if (clusters_ == 0 || rows.empty()) return;
+  isStale_.assign(a.size(), 0), staleCluster_.assign(clusters_, 0), stale_.clear();
+  const auto note = [&](std::int32_t i) {
+    if (!std::exchange(isStale_[i], 1)) stale_.push_back(i), staleCluster_[cluster_[i]] = 1;
+  };
   for (const std::int32_t i : rows) {
-    const bool isFree = movesWithOthers(a, swept, i), was = std::exchange(isFree_[i], isFree);
-    const auto ignore = [](std::int32_t, const SymmetricSum&) {};
-    fillRow(a, swept, i, ignore);
-    if (isFree == was) continue;
-    for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) fillRow(a, swept, a.other[e], ignore);
+    note(i);
+    const bool isFree = movesWithOthers(a, swept, i);
+    if (isFree != std::exchange(isFree_[i], isFree))
+      for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) note(a.other[e]);
   }
+  forEachIndex(stale_.size(), [&](std::size_t s) { fillRow(a, swept, stale_[s]); });
+  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
+    if (staleCluster_[g]) sumCluster(swept, g);
+  });
+  if (static_cast<double>(rows.size()) > kManyChanges * static_cast<double>(a.size())) factor();
 }
 
-/// Calls use(number, cluster, block) for the links of a row: what translations of clusters do to it.
+/// Calls use(number, block) for the links of a row: what translations of clusters do to it.
 /// Differences are taken in double precision, so that a row within its cluster is left with its own block.
 template <typename Use>
 void CoarseCorrection::forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const {
@@ -81,64 +89,126 @@ void CoarseCorrection::forEachLink(const BlockSystem& a, std::size_t i, const Us
       continue;
     }
     const std::int32_t c = cluster_[j];
-    if (c != running && running != home) use(number++, running, sum);
+    if (c != running && running != home) use(number++, sum);
     if (c != running) running = c, sum = {};
     own.add(isFree_[i], block), sum.add(-isFree_[j], block);
   }
-  if (running != home) use(number, running, sum);
-  use(0, home, own);
+  if (running != home) use(number, sum);
+  use(0, own);
 }
 
-std::int32_t CoarseCorrection::countLinks(const BlockSystem& a, std::size_t i) const {
+/// The clusters of a row's links, its own first; returns how many there are. Neighbours come in the order of
+/// their numbers, and so of their clusters.
+std::int32_t CoarseCorrection::listLinks(const BlockSystem& a, std::size_t i, std::int32_t* list) const {
   const std::int32_t home = cluster_[i];
-  std::int32_t count = 1, running = home;
+  std::int32_t count = 0, running = home;
+  const auto note = [&](std::int32_t c) {
+    if (list != nullptr) list[count] = c;
+    ++count;
+  };
+  note(home);
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
     if (isIn(home, a.other[e])) continue;
     const std::int32_t c = cluster_[a.other[e]];
-    if (c != running) ++count, running = c;
+    if (c != running) note(running = c);
   }
   return count;
 }
 
-/// Also calls use(cluster, block) for each link.
-template <typename Use>
-void CoarseCorrection::fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i,
-                               const Use& use) {
-  const std::int32_t k = swept.placeOf(i);
-  home_[k] = static_cast<std::int32_t>(clusterOf(i));
-  forEachLink(a, i, [&](std::int32_t number, std::int32_t c, const SymmetricSum& block) {
-    link_[start_[k] + number] = c, block_[start_[k] + number] = SymmetricBlock(block);
-    use(c, block);
-  });
+/// Where links stand, and which clusters know each other; whatever is free.
+void CoarseCorrection::findPattern(const BlockSystem& a, const SweptSystem& swept) {
+  const std::size_t n = a.size();
+  start_.resize(n + 1);
+  forEachIndex(n, [&](std::size_t k) { start_[k] = listLinks(a, swept.source[k], nullptr); });
+  std::int32_t links = 0;
+  start_[n] = 0;
+  for (std::int32_t& start : start_) links += std::exchange(start, links);
+  link_.resize(links + kPadding), block_.resize(links + kPadding), mirror_.resize(links);
+  rowOf_.resize(links), blockByCluster_.resize(links);
+  std::fill(link_.end() - kPadding, link_.end(), 0);
+  forEachIndex(n, [&](std::size_t k) { listLinks(a, swept.source[k], &link_[start_[k]]); });
+  listByCluster(swept);
 }
 
-/// Its rows, and its columns of Z^T A Z; those of a cluster in which nothing is free stand apart.
-void CoarseCorrection::fillCluster(const BlockSystem& a, const SweptSystem& swept, std::size_t g) {
-  auto columns = matrix_.middleCols<3>(static_cast<Eigen::Index>(3 * g));
-  columns.setZero();
-  for (std::size_t i = firstRow(g); i < firstRow(g + 1); ++i)
-    fillRow(a, swept, i, [&](std::int32_t c, const SymmetricSum& block) {
-      if (isFree_[i]) columns.middleRows<3>(3 * c) += block.matrix();
+/// Of each cluster the rows that know it, cluster after cluster of theirs.
+void CoarseCorrection::listByCluster(const SweptSystem& swept) {
+  std::vector<std::vector<std::int32_t>> known(clusters_), place(clusters_);  // and how often, then where
+  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
+    std::vector<std::int32_t> slot(clusters_, -1);
+    forEachLinkOf(swept, g, [&](std::int32_t, std::int32_t e) {
+      std::int32_t& at = slot[link_[e]];
+      if (at < 0) {
+        at = static_cast<std::int32_t>(known[g].size());
+        known[g].push_back(link_[e]), place[g].push_back(0);
+      }
+      ++place[g][at];
     });
-  auto own = columns.middleRows<3>(static_cast<Eigen::Index>(3 * g));
-  if (own.isZero(0)) own.setIdentity();
+  });
+  matrix_.start.assign(1, 0), matrix_.other.clear(), startOf_.assign(clusters_ + 1, 0);
+  for (std::size_t g = 0; g < clusters_; ++g) {
+    matrix_.other.insert(matrix_.other.end(), known[g].begin(), known[g].end());
+    matrix_.start.push_back(static_cast<std::int32_t>(matrix_.other.size()));
+    for (std::size_t s = 0; s < known[g].size(); ++s) startOf_[known[g][s] + 1] += place[g][s];
+  }
+  matrix_.block.resize(matrix_.other.size());
+  std::partial_sum(startOf_.begin(), startOf_.end(), startOf_.begin());
+  std::vector<std::int32_t> next(startOf_.begin(), startOf_.end() - 1);
+  for (std::size_t g = 0; g < clusters_; ++g)
+    for (std::size_t s = 0; s < known[g].size(); ++s) {
+      std::int32_t& begin = next[known[g][s]];
+      begin += std::exchange(place[g][s], begin);
+    }
+  tbb::parallel_for(std::size_t{0}, clusters_, [&](std::size_t g) {
+    std::vector<std::int32_t> at(clusters_);
+    for (std::size_t s = 0; s < known[g].size(); ++s) at[known[g][s]] = place[g][s];
+    forEachLinkOf(swept, g, [&](std::int32_t k, std::int32_t e) {
+      mirror_[e] = at[link_[e]]++;
+      rowOf_[mirror_[e]] = k;
+    });
+  });
 }
 
-/// Where round-off leaves no inverse, there is no correction. Only the lower half is found: from a column's
-/// diagonal down it depends on nothing above, which saves two thirds of the work.
-void CoarseCorrection::invert() {
-  const Eigen::Index size = matrix_.rows();
-  inverse_.setZero(size, size);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(matrix_);
-  if (cholesky.info() != Eigen::Success) return;
-  tbb::parallel_for(Eigen::Index{0}, (size + kColumns - 1) / kColumns, [&](Eigen::Index task) {
-    const Eigen::Index first = kColumns * task, rest = size - first;
-    const auto factor = matrix_.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>();
-    auto columns = inverse_.block(first, first, rest, std::min(kColumns, rest));
-    columns.diagonal().setConstant(kShare);
-    factor.solveInPlace(columns);
-    factor.transpose().solveInPlace(columns);
+/// Calls use(row as swept, link) for the links of the rows of cluster g.
+template <typename Use>
+void CoarseCorrection::forEachLinkOf(const SweptSystem& swept, std::size_t g, const Use& use) const {
+  for (std::int32_t i = firstRow_[g]; i < firstRow_[g + 1]; ++i) {
+    const std::int32_t k = swept.placeOf(i);
+    for (std::int32_t e = start_[k]; e < start_[k + 1]; ++e) use(k, e);
+  }
+}
+
+void CoarseCorrection::fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i) {
+  const std::int32_t first = start_[swept.placeOf(i)];
+  forEachLink(a, i, [&](std::int32_t number, const SymmetricSum& block) {
+    block_[first + number] = SymmetricBlock(block);
+    blockByCluster_[mirror_[first + number]] = block_[first + number];
   });
+}
+
+/// Its row of Z^T A Z.
+void CoarseCorrection::sumCluster(const SweptSystem& swept, std::size_t g) {
+  const std::int32_t first = matrix_.start[g], last = matrix_.start[g + 1];
+  std::vector<SymmetricSum> sums(last - first);
+  std::vector<std::int32_t> slot(clusters_);
+  for (std::int32_t s = first; s < last; ++s) slot[matrix_.other[s]] = s - first;
+  for (std::int32_t i = firstRow_[g]; i < firstRow_[g + 1]; ++i) {
+    if (!isFree_[i]) continue;
+    const std::int32_t k = swept.placeOf(i);
+    for (std::int32_t e = start_[k]; e < start_[k + 1]; ++e) sums[slot[link_[e]]].add(block_[e]);
+  }
+  for (std::int32_t s = first; s < last; ++s) matrix_.block[s] = sums[s - first].matrix();
+}
+
+/// A cluster in which nothing is free counts as held by 1, and is not pulled.
+void CoarseCorrection::factor() {
+  held_ = matrix_;
+  for (std::size_t g = 0; g < clusters_; ++g) {
+    const auto first = isFree_.begin() + firstRow_[g], last = isFree_.begin() + firstRow_[g + 1];
+    if (std::find(first, last, 1) != last) continue;
+    for (std::int32_t e = held_.start[g]; e < held_.start[g + 1]; ++e)
+      if (held_.other[e] == static_cast<std::int32_t>(g)) held_.block[e].setIdentity();
+  }
+  factor_.factor(held_);
 }
 
 void CoarseCorrection::sumUp(const Vectors3& b, Eigen::VectorXd& sums) const {
@@ -151,8 +221,11 @@ void CoarseCorrection::sumUp(const Vectors3& b, Eigen::VectorXd& sums) const {
   });
 }
 
-void CoarseCorrection::solve(const Eigen::VectorXd& sums, Eigen::VectorXd& motion) const {
-  motion.noalias() = inverse_.selfadjointView<Eigen::Lower>() * sums;
+Eigen::Vector3d CoarseCorrection::pullOf(std::size_t c, const Eigen::Vector4f* v) const {
+  DoubleQuad sum = {};
+  for (std::int32_t e = startOf_[c]; e < startOf_[c + 1]; ++e)
+    addTo(sum, blockByCluster_[e].times(loadQuad(v[rowOf_[e]])));
+  return {sum[0], sum[1], sum[2]};
 }
 
 }  // namespace spume::foam

@@ -98,7 +98,7 @@ int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal,
   for (int pass = 0; pass < kRefinements && norm_ > goal && iterations < maxIterations; ++pass) {
     const double last = norm_, aim = std::max(kAim * goal, kSinglePrecision * last);
     const BlockPcg::Result done =
-        pcg_.improve(swept_, cholesky_, coarse_, last, aim, maxIterations - iterations, residual_, x);
+        pcg_.improve(swept_, cholesky_, coarse_, aim, maxIterations - iterations, residual_, x);
     iterations += done.iterations;
     drift_ += done.drift;
     if (done.reached && drift_ <= allowed)

@@ -23,11 +23,13 @@ inline constexpr std::size_t kQuads = 1;
 #endif
 using QuadLanes [[gnu::vector_size(kQuads * sizeof(Quad))]] = float;
 
-inline Quad loadQuad(const Eigen::Vector4f& from) {
+inline Quad loadQuad(const float* from) {
   Quad quad;
-  std::memcpy(&quad, from.data(), sizeof quad);
+  std::memcpy(&quad, from, sizeof quad);
   return quad;
 }
+
+inline Quad loadQuad(const Eigen::Vector4f& from) { return loadQuad(from.data()); }
 
 inline Eigen::Vector4f toVector(const Quad& quad) {
   Eigen::Vector4f to;

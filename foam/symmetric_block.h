@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+#include <cstdint>
 
 #include "foam/quad_lanes.h"
 
 namespace spume::foam {
+
+struct SymmetricBlock;
 
 /// A symmetric 3 x 3 matrix in double precision, laid out in the same way to be summed up; fourth numbers
 /// have no meaning.
@@ -35,6 +37,7 @@ struct SymmetricSum {
     straight += b * b + __builtin_shufflevector(b, b, 3, 3, 3, 3);
     crossed += __builtin_shufflevector(b, b, 0, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 2, 3);
   }
+  void add(const SymmetricBlock& block);
   /// Takes B M B away: a t^T + t a^T + c^2 M with t = (a . M a) a / 2 + c M a.
   void subtractSandwich(const Eigen::Vector4f& coupling, const SymmetricSum& m) {
     DoubleQuad b;
@@ -58,37 +61,46 @@ struct SymmetricSum {
 /// A symmetric 3 x 3 matrix by its six numbers, laid out so that a product is three multiplications of whole
 /// quads.
 struct SymmetricBlock {
-  Eigen::Vector4f straight;  ///< xx, yy, zz, 0
-  Eigen::Vector4f crossed;   ///< xy, xz, yz, 0
+  float number[6];  ///< xx, yy, zz, xy, xz, yz
 
   SymmetricBlock() = default;
   explicit SymmetricBlock(const SymmetricSum& m)
-      : straight(Eigen::Vector4d(m.straight[0], m.straight[1], m.straight[2], 0).cast<float>()),
-        crossed(Eigen::Vector4d(m.crossed[0], m.crossed[1], m.crossed[2], 0).cast<float>()) {}
-  explicit SymmetricBlock(const Eigen::Matrix3d& m)
-      : straight(Eigen::Vector4d(m(0, 0), m(1, 1), m(2, 2), 0).cast<float>()),
-        crossed(Eigen::Vector4d(m(0, 1), m(0, 2), m(1, 2), 0).cast<float>()) {}
+      : number{static_cast<float>(m.straight[0]), static_cast<float>(m.straight[1]),
+               static_cast<float>(m.straight[2]), static_cast<float>(m.crossed[0]),
+               static_cast<float>(m.crossed[1]),  static_cast<float>(m.crossed[2])} {}
+  explicit SymmetricBlock(const Eigen::Matrix3d& m) : SymmetricBlock(SymmetricSum(m)) {}
 
-  /// Acts on the first three numbers, the fourth may be any finite one; the fourth of the result is 0.
+  /// Acts on the first three numbers of x, whose fourth is 0; the fourth of the result is 0.
   Quad times(const Quad& x) const {
-    const Quad s = loadQuad(straight), c = loadQuad(crossed);
-    return s * x + __builtin_shufflevector(c, c, 0, 0, 1, 3) * __builtin_shufflevector(x, x, 1, 0, 0, 3) +
-           __builtin_shufflevector(c, c, 1, 2, 2, 3) * __builtin_shufflevector(x, x, 2, 2, 1, 3);
-  }
-  /// times() of two at once, which takes wide registers half the instructions.
-  std::pair<Quad, Quad> times(const Quad& x, const Quad& y) const {
-    using Both [[gnu::vector_size(2 * sizeof(Quad))]] = float;
-    const Quad s = loadQuad(straight), c = loadQuad(crossed);
-    const Both xy = __builtin_shufflevector(x, y, 0, 1, 2, 3, 4, 5, 6, 7);
-    const Both image = __builtin_shufflevector(s, s, 0, 1, 2, 3, 0, 1, 2, 3) * xy +
-                       __builtin_shufflevector(c, c, 0, 0, 1, 3, 0, 0, 1, 3) *
-                           __builtin_shufflevector(xy, xy, 1, 0, 0, 3, 5, 4, 4, 7) +
-                       __builtin_shufflevector(c, c, 1, 2, 2, 3, 1, 2, 2, 3) *
-                           __builtin_shufflevector(xy, xy, 2, 2, 1, 3, 6, 6, 5, 7);
-    return {__builtin_shufflevector(image, image, 0, 1, 2, 3),
-            __builtin_shufflevector(image, image, 4, 5, 6, 7)};
+    const Quad s = loadQuad(&number[0]), c = loadQuad(&number[2]);
+    return s * x + __builtin_shufflevector(c, c, 1, 1, 2, 3) * __builtin_shufflevector(x, x, 1, 0, 0, 3) +
+           __builtin_shufflevector(c, c, 2, 3, 3, 3) * __builtin_shufflevector(x, x, 2, 2, 1, 3);
   }
 };
+
+inline void SymmetricSum::add(const SymmetricBlock& block) {
+  const float* const of = block.number;
+  straight += DoubleQuad{of[0], of[1], of[2], 0}, crossed += DoubleQuad{of[3], of[4], of[5], 0};
+}
+
+/// The products of as many blocks as a register holds vectors of, but for those after the first `count`,
+/// which give 0.
+inline QuadLanes timesQuads(const SymmetricBlock* blocks, std::int32_t count, const QuadLanes& x) {
+#if defined(__AVX__)
+  const auto two = [&](int from) {
+    const Quad first = loadQuad(&blocks[0].number[from]), second = loadQuad(&blocks[1].number[from]);
+    return firstQuads(__builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7), count);
+  };
+  const QuadLanes s = two(0), c = two(2);
+  return s * x +
+         __builtin_shufflevector(c, c, 1, 1, 2, 3, 5, 5, 6, 7) *
+             __builtin_shufflevector(x, x, 1, 0, 0, 3, 5, 4, 4, 7) +
+         __builtin_shufflevector(c, c, 2, 3, 3, 3, 6, 7, 7, 7) *
+             __builtin_shufflevector(x, x, 2, 2, 1, 3, 6, 6, 5, 7);
+#else
+  return count > 0 ? blocks[0].times(x) : QuadLanes{};
+#endif
+}
 
 /// A lower triangular 3 x 3 matrix by its six numbers; both products are three multiplications of whole
 /// quads.

@@ -61,7 +61,15 @@ TEST(Quads, BlocksActAsTheirMatrices) {
     const TriangularBlock triangular(lower);
     expectNear(triangular.times(loadQuad(x)), lower * v);
     expectNear(triangular.transposedTimes(loadQuad(x)), lower.transpose() * v);
-    expectNear(SymmetricBlock(symmetric).times(loadQuad(x)), symmetric * v);
+    const Vector4f x0(x[0], x[1], x[2], 0);
+    const SymmetricBlock blocks[] = {SymmetricBlock(symmetric), SymmetricBlock(0.5 * symmetric)};
+    expectNear(blocks[0].times(loadQuad(x0)), symmetric * v);
+    const std::vector<Vector4f> list(kQuads, x0);
+    const auto sum = [&](std::int32_t count) {
+      return joinQuads(timesQuads(blocks, count, loadQuads(list.data())));
+    };
+    expectNear(sum(1), symmetric * v);
+    expectNear(sum(2), (kQuads > 1 ? 1.5 : 1) * (symmetric * v));
     EXPECT_LE((triangular.matrix() - lower).norm(), kRoundOff);
     EXPECT_LE((lower * triangular.solve(v) - v).norm(), kRoundOff * triangular.solve(v).norm());
   }
