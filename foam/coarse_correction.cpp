@@ -75,13 +75,13 @@ void CoarseCorrection::refresh(const BlockSystem& a, const SweptSystem& swept,
 /// Differences are taken in double precision, so that a row within its cluster is left with its own block.
 template <typename Use>
 void CoarseCorrection::forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const {
-  const std::int32_t home = cluster_[i];
+  const std::int32_t home = cluster_[i], first = firstRow_[home], end = firstRow_[home + 1];
   SymmetricSum own, sum;
   if (isFree_[i]) own = SymmetricSum(a.own[i]);
   std::int32_t number = 1, running = home;
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
     const std::int32_t j = a.other[e];
-    const bool isHome = isIn(home, j);
+    const bool isHome = j >= first && j < end;
     if (isHome && isFree_[i] == isFree_[j]) continue;
     const SymmetricSum block = matrixOf(a.block[e]);
     if (isHome) {
@@ -97,29 +97,36 @@ void CoarseCorrection::forEachLink(const BlockSystem& a, std::size_t i, const Us
   use(0, own);
 }
 
-/// The clusters of a row's links, its own first; returns how many there are. Neighbours come in the order of
-/// their numbers, and so of their clusters.
-std::int32_t CoarseCorrection::listLinks(const BlockSystem& a, std::size_t i, std::int32_t* list) const {
-  const std::int32_t home = cluster_[i];
-  std::int32_t count = 0, running = home;
-  const auto note = [&](std::int32_t c) {
-    if (list != nullptr) list[count] = c;
-    ++count;
-  };
-  note(home);
+/// How many clusters a row knows, its own among them. Neighbours come in the order of their numbers, and so
+/// of their clusters. Without branches, which nothing could foretell.
+std::int32_t CoarseCorrection::countLinks(const BlockSystem& a, std::size_t i) const {
+  std::int32_t count = 1, running = -1;
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
-    if (isIn(home, a.other[e])) continue;
     const std::int32_t c = cluster_[a.other[e]];
-    if (c != running) note(running = c);
+    count += (c != running) & (c != cluster_[i]);
+    running = c;
   }
   return count;
+}
+
+/// Which they are, its own first.
+void CoarseCorrection::listLinks(const BlockSystem& a, std::size_t i, std::int32_t* list) const {
+  const std::int32_t home = cluster_[i], first = firstRow_[home], end = firstRow_[home + 1];
+  std::int32_t running = home;
+  *list++ = home;
+  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
+    const std::int32_t j = a.other[e];
+    if (j >= first && j < end) continue;
+    const std::int32_t c = cluster_[j];
+    if (c != running) *list++ = running = c;
+  }
 }
 
 /// Where links stand, and which clusters know each other; whatever is free.
 void CoarseCorrection::findPattern(const BlockSystem& a, const SweptSystem& swept) {
   const std::size_t n = a.size();
   start_.resize(n + 1);
-  forEachIndex(n, [&](std::size_t k) { start_[k] = listLinks(a, swept.source[k], nullptr); });
+  forEachIndex(n, [&](std::size_t k) { start_[k] = countLinks(a, swept.source[k]); });
   std::int32_t links = 0;
   start_[n] = 0;
   for (std::int32_t& start : start_) links += std::exchange(start, links);

@@ -56,7 +56,8 @@ class CoarseCorrection {
  private:
   template <typename Use>
   void forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const;
-  std::int32_t listLinks(const BlockSystem& a, std::size_t i, std::int32_t* list) const;
+  std::int32_t countLinks(const BlockSystem& a, std::size_t i) const;
+  void listLinks(const BlockSystem& a, std::size_t i, std::int32_t* list) const;
   void findPattern(const BlockSystem& a, const SweptSystem& swept);
   void listByCluster(const SweptSystem& swept);
   template <typename Use>
@@ -66,8 +67,6 @@ class CoarseCorrection {
   void factor();
   /// The rows of cluster g of the BlockSystem are firstRow(g) .. firstRow(g + 1) - 1.
   std::size_t firstRow(std::size_t g) const { return (g * cluster_.size() + clusters_ - 1) / clusters_; }
-  /// Whether row j of the BlockSystem belongs to cluster g.
-  bool isIn(std::int32_t g, std::int32_t j) const { return j >= firstRow_[g] && j < firstRow_[g + 1]; }
 
   std::size_t clusters_ = 0;
   std::vector<std::int32_t> cluster_;   ///< by row of the BlockSystem

@@ -139,16 +139,26 @@ std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& to
 std::vector<std::uint8_t> supportedBubbles(const FoamTopology& topology, const Eigen::VectorXd& psi,
                                            const BubbleStore& bubbles) {
   const std::size_t n = bubbles.size();
+  std::vector<std::uint8_t> held(n), supported(n);
+  forEachIndex(n, [&](std::size_t i) {
+    held[i] = bubbles.type[i] != BubbleClass::air || psi[static_cast<Eigen::Index>(i)] <= bubbles.radius[i] ||
+              bubbles.touchedSolid[i];
+  });
+  // Nearly all hang on to one that is held by way of lower numbers, which one look at each film finds.
+  for (const Film& film : topology.films)
+    if (held[film.i] != held[film.j]) held[film.i] = held[film.j] = 1;
+  // What two that are held have in common changes nothing.
   Clusters clusters(n);
-  for (const Film& film : topology.films) clusters.join(film.i, film.j);
+  for (const Film& film : topology.films)
+    if (!(held[film.i] & held[film.j])) clusters.join(film.i, film.j);
   // A swallowed bubble has no film: it hangs on to whatever swallowed it.
   for (const OverlapPair& pair : topology.overlaps)
-    if (topology.hidden[pair.i] || topology.hidden[pair.j]) clusters.join(pair.i, pair.j);
-  std::vector<std::uint8_t> held(n, 0), supported(n, 0);
+    if (!(held[pair.i] & held[pair.j]) && (topology.hidden[pair.i] || topology.hidden[pair.j]))
+      clusters.join(pair.i, pair.j);
+  std::vector<std::uint8_t> holds(n, 0);  // by the roots of clusters
   for (std::size_t i = 0; i < n; ++i)
-    if (bubbles.type[i] != BubbleClass::air || psi[i] <= bubbles.radius[i] || bubbles.touchedSolid[i])
-      held[clusters.root(static_cast<std::int32_t>(i))] = 1;
-  for (std::size_t i = 0; i < n; ++i) supported[i] = held[clusters.root(static_cast<std::int32_t>(i))];
+    if (held[i]) holds[clusters.root(static_cast<std::int32_t>(i))] = 1;
+  for (std::size_t i = 0; i < n; ++i) supported[i] = holds[clusters.root(static_cast<std::int32_t>(i))];
   return supported;
 }
 
