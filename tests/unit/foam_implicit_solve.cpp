@@ -140,7 +140,7 @@ TEST(ImplicitSolve, FindsWhatLightBodiesDoAcrossStiffLinks) {
 }
 
 TEST(ImplicitSolve, ThreadsDoNotChangeABit) {
-  const BlockSystem a = randomSystem(5000, 1e4);  // four blocks of rows
+  const BlockSystem a = randomSystem(7000, 1e4);  // several blocks of rows, some clusters
   const Vectors3 b = randomVectors(a.size());
   for (const LinearSolver kind : kSolvers) {
     const auto withThreads = [&](std::size_t threads) {
