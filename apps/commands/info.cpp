@@ -75,14 +75,17 @@ void describeFolder(const std::string& path, Report& report) {
   const coupling::CacheListing liquid = coupling::listCache(path + "/liquid", "liquid", "vdb");
   const coupling::CacheListing bubbles = coupling::listCache(path + "/bubbles", "bubbles", "vdb");
   const coupling::CacheListing plain = coupling::listCache(path + "/bubbles", "bubbles", "ply");
+  const coupling::CacheListing films = coupling::listCache(path + "/films", "films", "ply");
   const coupling::CacheListing pictures = coupling::listCache(path + "/preview", "preview", "png");
   if (liquid.frames.empty() && bubbles.frames.empty() && plain.frames.empty() &&
       !fs::exists(path + "/scene.toml"))
     throw coupling::SceneError(path + ": holds no run (no scene.toml, liquid/ or bubbles/)");
   report.add("liquid_frames", coupling::describeFrames(liquid));
   report.add("bubble_frames", coupling::describeFrames(bubbles.frames.empty() ? plain : bubbles));
+  report.add("film_frames", coupling::describeFrames(films));
   report.add("pictures", coupling::describeFrames(pictures));
-  report.add("bytes", static_cast<double>(liquid.bytes + bubbles.bytes + plain.bytes + pictures.bytes));
+  report.add("bytes",
+             static_cast<double>(liquid.bytes + bubbles.bytes + plain.bytes + films.bytes + pictures.bytes));
   if (!liquid.frames.empty()) {
     const coupling::LiquidFrame last = coupling::readLiquidFrame(liquid.paths.back());
     describeStamp(last.stamp, report);

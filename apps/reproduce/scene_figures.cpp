@@ -74,6 +74,16 @@ void addChecks(const SceneRun& run, const PaperFigures& paper, std::vector<Resul
   worst.note = "older than 1 s; " + std::to_string(volumes.flagged) + " of " +
                std::to_string(run.bubbles().size()) + " flagged and left out";
   rows.push_back(aimAtMost(worst, 100 * volumes.worst, 1, "%"));
+  constexpr double kOff = 0.01;
+  ResultRow everAbove = rowOf(run, "frames that end with a cell more than 1 % off, newborn ones counted");
+  char most[64];
+  std::snprintf(most, sizeof most, "the worst by %.3g %%", 100 * mostOf(run.frames.worstVolume));
+  everAbove.note = most;
+  rows.push_back(reportOnly(
+      everAbove,
+      static_cast<double>(std::count_if(run.frames.worstVolume.begin(), run.frames.worstVolume.end(),
+                                        [](double error) { return error > kOff; })),
+      ""));
   const BubbleBooks books = readBooks(coupling::RunFolder(run.folder).root() + "/events.csv");
   ResultRow lost = rowOf(run, "bubbles lost: born less ended less alive");
   lost.note = std::to_string(books.born) + " born, " + std::to_string(books.left) + " left the domain";

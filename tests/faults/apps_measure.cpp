@@ -33,6 +33,8 @@ TEST(MeasureFaults, NoFileReplacesAnother) {
   expectRefused(runSpume("measure " + input + " -o " + input), 2, "would replace");
   const std::string both = scratch / "b.csv";
   expectRefused(runSpume("measure " + input + " -o " + both + " --contacts " + both), 2, "the same file");
+  expectRefused(runSpume("measure " + input + " -o " + both + " --films " + both), 2, "the same file");
+  expectRefused(runSpume("measure " + input + " --films " + input), 2, "would replace");
   EXPECT_EQ(contentsOf(input), kSound);
 }
 
