@@ -116,9 +116,9 @@ struct FoamSolver::Internals {
   void measureStart();
   void noteImpulses(double dt);
   void sampleEnd(const LiquidSampler& liquid);
-  void endLivesAndReport(double dt, FoamStepReport& report);
+  bool endLivesAndReport(double dt, FoamStepReport& report);
   std::vector<std::int32_t> livingRows() const;
-  void removeEnded();
+  void removeEnded(bool hasEnded);
   void holdVolumes(const LiquidSampler& liquid);
   void summarise(const BubbleStore& bubbles, FoamStepReport& report) const;
   void reportClassChanges(const BubbleStore& before, FoamStepReport& report) const;
@@ -218,7 +218,8 @@ void FoamSolver::Internals::reportClassChanges(const BubbleStore& before, FoamSt
                                next.gas[i], next.age[i], before.type[row], next.type[i]});
 }
 
-void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report) {
+/// Returns whether any life has ended.
+bool FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report) {
   const auto supported = supportedBubbles(topology, psiEnd, next);
   const auto ended = endLives(params, topology, supported, psiEnd, dt, next);
   for (const EndedLife& life : ended) {
@@ -233,6 +234,7 @@ void FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report)
     else
       report.gasBurst += next.gas[i];
   }
+  return !ended.empty();
 }
 
 /// The rows that are left; where volumes are held, in the order in which the next step will take them, so
@@ -255,7 +257,8 @@ std::vector<std::int32_t> FoamSolver::Internals::livingRows() const {
 }
 
 /// Drops the rows of ended lives, so that the others' cells take their places before they are measured.
-void FoamSolver::Internals::removeEnded() {
+void FoamSolver::Internals::removeEnded(bool hasEnded) {
+  if (!hasEnded && !holdsVolumes(params)) return;  // rows stay where they are
   const std::vector<std::int32_t> rows = livingRows();
   living.gather(next, rows);
   std::swap(next, living);
@@ -331,8 +334,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("solve");
   s.sampleEnd(liquid);
   relabel(s.phiEnd, s.next);
-  s.endLivesAndReport(dt, report);
-  s.removeEnded();
+  s.removeEnded(s.endLivesAndReport(dt, report));
   clock.end("events");
   if (holdsVolumes(s.params)) s.holdVolumes(liquid);
   clock.end("volume");

@@ -1,6 +1,9 @@
 #include "foam/lifetime.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -41,6 +44,49 @@ class Clusters {
 
  private:
   std::vector<std::int32_t> parent_;
+};
+
+/// Which bubbles hang on to one that is held, of those that meet.
+class Support {
+ public:
+  explicit Support(std::vector<std::uint8_t>& held) : held_(held), clusters_(held.size()) {}
+
+  /// Calls meet(k) for all k below `count`, in parallel.
+  template <typename Meet>
+  void pass(std::size_t count, const Meet& meet) {
+    forEachIndex(count, meet);
+    joinLoose();
+  }
+  /// Two bubbles in contact. Nearly all that are not held meet one that is; only the others are noted. In
+  /// what order threads do this changes what is noted, but not what clusters hang on to.
+  void meet(std::int32_t i, std::int32_t j) {
+    const std::atomic_ref<std::uint8_t> ofI(held_[i]), ofJ(held_[j]);
+    const bool isI = ofI.load(std::memory_order_relaxed), isJ = ofJ.load(std::memory_order_relaxed);
+    if (isI != isJ) (isI ? ofJ : ofI).store(1, std::memory_order_relaxed);
+    if (!isI && !isJ) loose_.local().push_back({i, j});
+  }
+  bool holdsAll() const { return std::find(held_.begin(), held_.end(), 0) == held_.end(); }
+
+ private:
+  struct Edge {
+    std::int32_t i, j;
+  };
+
+  /// Holds the clusters of those noted of which one is held.
+  void joinLoose() {
+    for (std::vector<Edge>& edges : loose_) {
+      for (const Edge& edge : edges) clusters_.join(edge.i, edge.j);
+      edges.clear();
+    }
+    const auto n = static_cast<std::int32_t>(held_.size());
+    for (std::int32_t i = 0; i < n; ++i)
+      if (held_[i]) held_[clusters_.root(i)] = 1;
+    for (std::int32_t i = 0; i < n; ++i) held_[i] = held_[clusters_.root(i)];
+  }
+
+  std::vector<std::uint8_t>& held_;
+  Clusters clusters_;
+  tbb::enumerable_thread_specific<std::vector<Edge>> loose_;
 };
 
 /// For every ending bubble that is enclosed, its neighbour with the largest film.
@@ -139,27 +185,21 @@ std::vector<EndedLife> endLives(const FoamParams& params, const FoamTopology& to
 std::vector<std::uint8_t> supportedBubbles(const FoamTopology& topology, const Eigen::VectorXd& psi,
                                            const BubbleStore& bubbles) {
   const std::size_t n = bubbles.size();
-  std::vector<std::uint8_t> held(n), supported(n);
+  std::vector<std::uint8_t> held(n);
   forEachIndex(n, [&](std::size_t i) {
     held[i] = bubbles.type[i] != BubbleClass::air || psi[static_cast<Eigen::Index>(i)] <= bubbles.radius[i] ||
               bubbles.touchedSolid[i];
   });
-  // Nearly all hang on to one that is held by way of lower numbers, which one look at each film finds.
-  for (const Film& film : topology.films)
-    if (held[film.i] != held[film.j]) held[film.i] = held[film.j] = 1;
-  // What two that are held have in common changes nothing.
-  Clusters clusters(n);
-  for (const Film& film : topology.films)
-    if (!(held[film.i] & held[film.j])) clusters.join(film.i, film.j);
+  Support support(held);
+  support.pass(topology.films.size(),
+               [&](std::size_t f) { support.meet(topology.films[f].i, topology.films[f].j); });
   // A swallowed bubble has no film: it hangs on to whatever swallowed it.
-  for (const OverlapPair& pair : topology.overlaps)
-    if (!(held[pair.i] & held[pair.j]) && (topology.hidden[pair.i] || topology.hidden[pair.j]))
-      clusters.join(pair.i, pair.j);
-  std::vector<std::uint8_t> holds(n, 0);  // by the roots of clusters
-  for (std::size_t i = 0; i < n; ++i)
-    if (held[i]) holds[clusters.root(static_cast<std::int32_t>(i))] = 1;
-  for (std::size_t i = 0; i < n; ++i) supported[i] = holds[clusters.root(static_cast<std::int32_t>(i))];
-  return supported;
+  if (!support.holdsAll())
+    support.pass(topology.overlaps.size(), [&](std::size_t p) {
+      const OverlapPair& pair = topology.overlaps[p];
+      if (topology.hidden[pair.i] || topology.hidden[pair.j]) support.meet(pair.i, pair.j);
+    });
+  return held;
 }
 
 void coalesce(std::size_t from, std::size_t to, const std::vector<double>& mass, BubbleStore& bubbles) {

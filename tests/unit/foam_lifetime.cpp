@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "foam/counter_random.h"
 #include "foam/lifetime.h"
 #include "tests/foam_fixtures.h"
 
@@ -186,6 +188,46 @@ TEST(Lifetime, AirClustersWithoutSupportEndWithinTheirTime) {
   std::sort(ended.begin(), ended.end());
   ended.erase(std::unique(ended.begin(), ended.end()), ended.end());
   EXPECT_EQ(ended, (std::vector<std::size_t>{3, 4, 5}));
+}
+
+TEST(Lifetime, SupportIsWhatAFloodFromTheHeldReaches) {
+  constexpr std::int32_t kCount = 40000;
+  OpenBubbles open(kCount, 1e-3);
+  FoamTopology& topology = open.topology;
+  std::vector<std::vector<std::int32_t>> met(kCount);
+  for (std::int32_t i = 0; i < kCount; ++i) {
+    CounterRandom random(3, static_cast<std::uint64_t>(i), 0);
+    if (random.uniform() < 0.002) open.bubbles.type[i] = BubbleClass::surface;
+    topology.hidden[i] = random.uniform() < 0.1;
+  }
+  for (std::int32_t i = 0; i < kCount; ++i) {
+    CounterRandom random(3, static_cast<std::uint64_t>(i), 1);
+    const std::int32_t links = random.uniform() < 0.6 ? 2 : 0;
+    for (std::int32_t k = 0; k < links; ++k) {
+      const auto j = static_cast<std::int32_t>(i + 1 + 30 * random.uniform());
+      if (j >= kCount) continue;
+      const bool swallows = topology.hidden[i] || topology.hidden[j], hasFilm = !swallows;
+      topology.overlaps.push_back({i, j, 1e-3, hasFilm ? 0 : -1});
+      if (hasFilm) topology.films.push_back({i, j, 1e-3, 0, 0});
+      if (swallows || hasFilm) met[i].push_back(j), met[j].push_back(i);
+    }
+  }
+  std::vector<std::uint8_t> reached(kCount, 0);
+  std::vector<std::int32_t> ends;
+  const auto reach = [&](std::int32_t i) {
+    if (!std::exchange(reached[i], 1)) ends.push_back(i);
+  };
+  for (std::int32_t i = 0; i < kCount; ++i)
+    if (open.bubbles.type[i] == BubbleClass::surface) reach(i);
+  while (!ends.empty()) {
+    const std::int32_t i = ends.back();
+    ends.pop_back();
+    std::for_each(met[i].begin(), met[i].end(), reach);
+  }
+  const auto supported = std::count(reached.begin(), reached.end(), 1);
+  EXPECT_GT(supported, kCount / 10);
+  EXPECT_LT(supported, kCount * 9 / 10);
+  EXPECT_EQ(supportedBubbles(topology, open.psi(), open.bubbles), reached);
 }
 
 TEST(Lifetime, WithoutSupportTheClockRunsOutSteadily) {
