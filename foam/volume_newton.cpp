@@ -17,6 +17,14 @@ double dot(const Column& a, const Column& b) {
       a.size(), 0.0, [&](std::size_t i) { return a[i] * b[i]; }, std::plus<>());
 }
 
+/// -dV_i/dw_j of the two cells of a pair [m].
+float couplingOf(const FoamTopology& topology, std::int32_t pair) {
+  const std::int32_t f = topology.overlaps[pair].film;
+  if (f < 0) return 0;
+  const Film& film = topology.films[f];
+  return static_cast<float>(film.area / (2 * film.distance));
+}
+
 /// The derivatives of the volumes by the weights, row by row: what a row reads of another stands beside its
 /// neighbours, in single precision, which is far finer than the linearisation and half the memory.
 class VolumeDerivatives {
@@ -25,19 +33,23 @@ class VolumeDerivatives {
                     const std::vector<char>& fixed)
       : neighbours_(neighbours), coupling_(neighbours.other.size()), diagonal_(radius.size()) {
     forEachIndex(radius.size(), [&](std::size_t i) {
+      if (fixed[i]) return;
       double sum = topology.freeArea[i] / (2 * radius[i]);
       for (std::int32_t e = neighbours.start[i]; e < neighbours.start[i + 1]; ++e) {
-        const std::int32_t f = topology.overlaps[neighbours.pair[e]].film;
-        const float coupling = f >= 0 ? couplingOf(topology.films[f]) : 0;
+        const float coupling = couplingOf(topology, neighbours.pair[e]);
         sum += coupling;
-        coupling_[e] = fixed[i] || fixed[neighbours.other[e]] ? 0 : coupling;
+        coupling_[e] = fixed[neighbours.other[e]] ? 0 : coupling;
       }
-      diagonal_[i] = fixed[i] ? 0 : sum;
+      diagonal_[i] = sum;
     });
   }
 
   void apply(const Column& x, Column& out) const {
     forEachIndex(x.size(), [&](std::size_t i) {
+      if (isEmpty(i)) {
+        out[i] = 0;
+        return;
+      }
       double sum = diagonal_[i] * x[i];
       for (std::int32_t e = neighbours_.start[i]; e < neighbours_.start[i + 1]; ++e)
         sum -= coupling_[e] * x[neighbours_.other[e]];
@@ -49,8 +61,6 @@ class VolumeDerivatives {
   bool isEmpty(std::size_t i) const { return !(diagonal_[i] > 0); }
 
  private:
-  static float couplingOf(const Film& film) { return static_cast<float>(film.area / (2 * film.distance)); }
-
   const Neighbours& neighbours_;
   std::vector<float> coupling_;  ///< with each neighbour [m]
   Column diagonal_;
@@ -82,6 +92,15 @@ void solveWeightChanges(const FoamTopology& topology, const Neighbours& neighbou
     forEachIndex(n, [&](std::size_t i) { direction[i] = scaled[i] + turn * direction[i]; });
     slope = next, size = dot(residual, residual);
   }
+}
+
+double volumeLost(const FoamTopology& topology, const Neighbours& neighbours,
+                  const std::vector<double>& change, std::size_t i) {
+  double sum = 0;
+  for (std::int32_t e = neighbours.start[i]; e < neighbours.start[i + 1]; ++e)
+    if (const double of = change[neighbours.other[e]]; of != 0)
+      sum += couplingOf(topology, neighbours.pair[e]) * of;
+  return sum;
 }
 
 }  // namespace spume::foam

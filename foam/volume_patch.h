@@ -11,7 +11,8 @@
 namespace spume::foam {
 
 /// Brings the few cells that do not hold their gas yet to do so, at the cost of their surroundings alone:
-/// they and their neighbours are corrected, and what that changes is measured anew. Cells that appear, vanish
+/// they are corrected, with those of their neighbours that this would put off the tolerance, and what that
+/// changes is measured anew. Cells that appear, vanish
 /// or change their neighbours need several more Newton steps than all others; each step is taken around what
 /// the last one has left or disturbed.
 class VolumePatch {
@@ -25,16 +26,20 @@ class VolumePatch {
 
  private:
   /// Distance of a bubble from those off, in neighbours.
-  enum Ring : char { elsewhere, corrected, watched };
+  enum Ring : char { elsewhere, isOff, beside, watched };
 
   void choose(const std::vector<std::int32_t>& off, const Neighbours& neighbours, std::size_t bubbles);
   void correct(const FoamParams& params, const FoamTopology& topology, const Neighbours& neighbours,
                BubbleStore& bubbles);
+  void project(const FoamParams& params);
+  bool freeDisturbed(const FoamParams& params);
 
   std::vector<Ring> ring_;             ///< of every bubble
   std::vector<std::int32_t> place_;    ///< in the patch, of every bubble, or -1
   std::vector<std::int32_t> rows_;     ///< of the patch, ascending
   std::vector<char> fixed_;            ///< by place in rows_: does not change itself
+  std::vector<double> radius_;         ///< by place in rows_, as measured [m]
+  std::vector<double> change_;         ///< of the weights since, by place in rows_ [m^2]
   std::vector<std::int32_t> changed_;  ///< rows that the last step has given another radius
   BubbleStore part_;
   FoamTopology topology_;

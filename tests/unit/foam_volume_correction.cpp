@@ -217,6 +217,50 @@ TEST(VolumeCorrection, APatchCorrectsAFewCellsAndLeavesTheRest) {
   EXPECT_GT(untouched, bubbles.size() / 2);
 }
 
+/// Neighbours that hold their gas well enough beside the corrected cell stay as they are, to the bit.
+TEST(VolumeCorrection, APatchLeavesNeighboursThatStayWithinTheTolerance) {
+  BubbleStore bubbles = denseFoam();
+  FoamParams params;
+  params.volumeMode = VolumeMode::newton;
+  params.volumeTolerance = 5e-3;
+  params.radiusLimit = 10;
+  const auto odd = static_cast<std::int32_t>(bubbles.size() / 2);
+  bubbles.gas[odd] *= 1.02;
+  FoamTopology topology;
+  Neighbours neighbours;
+  measure(bubbles, topology, neighbours);
+  ASSERT_EQ(cellsOff(bubbles, params.volumeTolerance), std::vector{odd});
+  const std::vector<double> before = bubbles.radius;
+  VolumePatch().settle(params, {}, topology, neighbours, bubbles);
+  EXPECT_TRUE(cellsOff(bubbles, params.volumeTolerance).empty());
+  for (std::size_t i = 0; i < bubbles.size(); ++i)
+    EXPECT_EQ(bubbles.radius[i] != before[i], i == static_cast<std::size_t>(odd)) << i;
+}
+
+TEST(VolumeCorrection, WhatACellLosesToOneThatGrowsIsWhatIsMeasured) {
+  const BubbleStore foam = denseFoam();
+  const std::size_t odd = foam.size() / 2;
+  FoamTopology topology;
+  Neighbours neighbours;
+  std::vector<double> change(foam.size(), 0.0);
+  BubbleStore bubbles = foam;
+  measure(bubbles, topology, neighbours);
+  const std::vector<double> before = topology.volume;
+  constexpr double kGrowth = 1e-5;
+  change[odd] = std::pow(kGrowth * foam.radius[odd], 2) + 2 * kGrowth * std::pow(foam.radius[odd], 2);
+  std::vector<double> lost(foam.size());
+  for (std::size_t i = 0; i < foam.size(); ++i) lost[i] = volumeLost(topology, neighbours, change, i);
+  bubbles.radius[odd] *= 1 + kGrowth;
+  measure(bubbles, topology, neighbours);
+  std::size_t disturbed = 0;
+  for (std::size_t i = 0; i < foam.size(); ++i) {
+    if (i == odd) continue;
+    disturbed += lost[i] > 0;
+    EXPECT_NEAR(before[i] - topology.volume[i], lost[i], 1e-3 * lost[i] + 1e-9 * before[i]) << i;
+  }
+  EXPECT_GE(disturbed, 2u);
+}
+
 /// A ball that grows until it meets one it did not touch before, which no patch around it holds.
 TEST(VolumeCorrection, APatchThatGrowsIntoAStrangerMeasuresItAlong) {
   FoamParams params;
