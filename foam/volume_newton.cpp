@@ -12,9 +12,16 @@ constexpr int kMaxIterations = 200;
 
 using Column = std::vector<double>;
 
-double dot(const Column& a, const Column& b) {
-  return reduceIndices(
-      a.size(), 0.0, [&](std::size_t i) { return a[i] * b[i]; }, std::plus<>());
+/// Products of the residual, with itself preconditioned and with itself.
+struct Products {
+  double slope = 0, size = 0;
+  Products operator+(const Products& other) const { return {slope + other.slope, size + other.size}; }
+};
+
+/// Sums value(i), which may write row i along: one pass over memory, and threads that meet once.
+template <typename Value, typename Item>
+Value sumRows(std::size_t n, const Item& value) {
+  return reduceIndices(n, Value(), value, std::plus<>());
 }
 
 /// -dV_i/dw_j of the two cells of a pair [m].
@@ -44,17 +51,13 @@ class VolumeDerivatives {
     });
   }
 
-  void apply(const Column& x, Column& out) const {
-    forEachIndex(x.size(), [&](std::size_t i) {
-      if (isEmpty(i)) {
-        out[i] = 0;
-        return;
-      }
-      double sum = diagonal_[i] * x[i];
-      for (std::int32_t e = neighbours_.start[i]; e < neighbours_.start[i + 1]; ++e)
-        sum -= coupling_[e] * x[neighbours_.other[e]];
-      out[i] = sum;
-    });
+  /// Row i times x.
+  double product(std::size_t i, const Column& x) const {
+    if (isEmpty(i)) return 0;
+    double sum = diagonal_[i] * x[i];
+    for (std::int32_t e = neighbours_.start[i]; e < neighbours_.start[i + 1]; ++e)
+      sum -= coupling_[e] * x[neighbours_.other[e]];
+    return sum;
   }
   /// Divides by the diagonal; a row without one has nothing to say.
   double precondition(std::size_t i, double x) const { return diagonal_[i] > 0 ? x / diagonal_[i] : 0; }
@@ -75,22 +78,26 @@ void solveWeightChanges(const FoamTopology& topology, const Neighbours& neighbou
   const VolumeDerivatives matrix(topology, neighbours, radius, fixed);
   Column residual(n), direction(n), step(n), scaled(n);
   change.assign(n, 0.0);
-  forEachIndex(n, [&](std::size_t i) {
+  auto left = sumRows<Products>(n, [&](std::size_t i) -> Products {
     residual[i] = matrix.isEmpty(i) ? 0 : wanted[i];
     direction[i] = matrix.precondition(i, residual[i]);
+    return {residual[i] * direction[i], residual[i] * residual[i]};
   });
-  double size = dot(residual, residual), slope = dot(residual, direction);
-  const double goal = tolerance * tolerance * size;
-  for (int iteration = 0; iteration < kMaxIterations && size > goal; ++iteration) {
-    matrix.apply(direction, step);
-    const double length = slope / dot(direction, step);
-    forEachIndex(n, [&](std::size_t i) {
+  const double goal = tolerance * tolerance * left.size;
+  for (int iteration = 0; iteration < kMaxIterations && left.size > goal; ++iteration) {
+    const double curvature = sumRows<double>(n, [&](std::size_t i) {
+      step[i] = matrix.product(i, direction);
+      return direction[i] * step[i];
+    });
+    const double length = left.slope / curvature;
+    const auto next = sumRows<Products>(n, [&](std::size_t i) -> Products {
       change[i] += length * direction[i], residual[i] -= length * step[i];
       scaled[i] = matrix.precondition(i, residual[i]);
+      return {residual[i] * scaled[i], residual[i] * residual[i]};
     });
-    const double next = dot(residual, scaled), turn = next / slope;
+    const double turn = next.slope / left.slope;
     forEachIndex(n, [&](std::size_t i) { direction[i] = scaled[i] + turn * direction[i]; });
-    slope = next, size = dot(residual, residual);
+    left = next;
   }
 }
 

@@ -59,7 +59,7 @@ void VolumePatch::choose(const std::vector<std::int32_t>& off, const Neighbours&
 
 void VolumePatch::correct(const FoamParams& params, const FoamTopology& topology,
                           const Neighbours& neighbours, BubbleStore& bubbles) {
-  part_.gather(bubbles, rows_);
+  gather(bubbles);
   takePart(topology, neighbours, rows_, place_, topology_);
   neighbours_.build(rows_.size(), topology_.overlaps);
   project(params);
@@ -68,6 +68,14 @@ void VolumePatch::correct(const FoamParams& params, const FoamTopology& topology
     const std::int32_t i = rows_[k];
     if (part_.radius[k] != bubbles.radius[i]) changed_.push_back(i);
     bubbles.radius[i] = part_.radius[k], bubbles.clamped[i] = part_.clamped[k];
+  }
+}
+
+void VolumePatch::gather(const BubbleStore& bubbles) {
+  part_.id.clear(), part_.gas.clear(), part_.radius.clear(), part_.clamped.clear();
+  for (const std::int32_t i : rows_) {
+    part_.id.push_back(bubbles.id[i]), part_.gas.push_back(bubbles.gas[i]);
+    part_.radius.push_back(bubbles.radius[i]), part_.clamped.push_back(bubbles.clamped[i]);
   }
 }
 

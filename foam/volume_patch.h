@@ -31,6 +31,7 @@ class VolumePatch {
   void choose(const std::vector<std::int32_t>& off, const Neighbours& neighbours, std::size_t bubbles);
   void correct(const FoamParams& params, const FoamTopology& topology, const Neighbours& neighbours,
                BubbleStore& bubbles);
+  void gather(const BubbleStore& bubbles);
   void project(const FoamParams& params);
   bool freeDisturbed(const FoamParams& params);
 
@@ -41,7 +42,7 @@ class VolumePatch {
   std::vector<double> radius_;         ///< by place in rows_, as measured [m]
   std::vector<double> change_;         ///< of the weights since, by place in rows_ [m^2]
   std::vector<std::int32_t> changed_;  ///< rows that the last step has given another radius
-  BubbleStore part_;
+  BubbleStore part_;                   ///< of these rows what a projection reads: ids, gas, radii, clamped
   FoamTopology topology_;
   Neighbours neighbours_;
   PartMeasurement measurement_;
