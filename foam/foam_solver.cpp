@@ -1,7 +1,6 @@
 #include "foam/foam_solver.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "foam/order_statistic.h"
 #include "foam/parallel.h"
 #include "foam/space_order.h"
+#include "foam/stage_clock.h"
 #include "foam/surroundings.h"
 #include "foam/volume_correction.h"
 #include "foam/volume_patch.h"
@@ -38,27 +38,6 @@ constexpr double kFewCells = 0.05, kFewAtFirst = 0.01;
 /// Share of the pairs that may move faster than the step resolves: bubbles that rise into a pile. Contacts
 /// are implicit and stop them within a step of any length; a froth that moves as a whole is more than these.
 constexpr double kArrivals = 0.05;
-
-/// Notes the wall time of each stage as it ends; a name that comes again adds to its first.
-class StageClock {
- public:
-  explicit StageClock(std::vector<FoamStageTime>& stages) : stages_(stages), last_(Clock::now()) {}
-  void end(const char* stage) {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    const auto known = std::find_if(stages_.begin(), stages_.end(),
-                                    [&](const FoamStageTime& noted) { return noted.stage == stage; });
-    if (known != stages_.end())
-      known->seconds += seconds;
-    else
-      stages_.push_back({stage, seconds});
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::vector<FoamStageTime>& stages_;
-  Clock::time_point last_;
-};
 
 void requireUsable(const BubbleStore& bubbles, double dt) {
   if (!(dt > 0) || !std::isfinite(dt))

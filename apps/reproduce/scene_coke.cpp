@@ -67,9 +67,12 @@ std::vector<ResultRow> coke(const StudyContext& context) {
   addShares(beads, b, plain);
   for (ResultRow& row : plain) row.title = "the same of plastic";
   rows.insert(rows.end(), plain.begin(), plain.end());
+  ResultRow contact = differenceRow(run, "floating bubbles in contact with another, first third",
+                                    earlyMean(a.clustered), earlyMean(b.clustered));
+  contact.note = "while the heads form; once they are full all bubbles touch, attracted or not";
+  rows.push_back(contact);
   rows.push_back(
-      differenceRow(run, "floating bubbles in contact", lateMean(a.clustered), lateMean(b.clustered)));
-  rows.push_back(differenceRow(run, "floating bubbles at a wall", lateMean(a.atWalls), lateMean(b.atWalls)));
+      differenceRow(run, "floating bubbles at a wall, last third", lateMean(a.atWalls), lateMean(b.atWalls)));
   return rows;
 }
 

@@ -141,6 +141,13 @@ double lateMean(const std::vector<double>& column) {
   return sum / static_cast<double>(column.size() - begin);
 }
 
+double earlyMean(const std::vector<double>& column) {
+  const std::size_t end = (column.size() + 2) / 3;
+  double sum = 0;
+  for (std::size_t n = 0; n < end; ++n) sum += column[n];
+  return sum / static_cast<double>(end);
+}
+
 double meanWhenFull(const SceneRun& run, const std::vector<double>& column) {
   const double full = kFullShare * mostOf(run.frames.bubbles);
   double sum = 0, frames = 0;

@@ -42,6 +42,8 @@ inline constexpr double kLatePart = 1.0 / 3;
 std::size_t lateBegin(std::size_t size);
 /// Mean of a column over that part; NaN of nothing.
 double lateMean(const std::vector<double>& column);
+/// The same of the first third.
+double earlyMean(const std::vector<double>& column);
 
 /// Largest |V - V0|/V0 of the grid liquid over the frames, V0 what it should be; 0 without liquid [-].
 double worstDrift(const FrameCurves& frames);

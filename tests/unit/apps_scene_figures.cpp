@@ -18,6 +18,9 @@ TEST(SceneFigures, MeansAreOverAllOrOverTheLatePart) {
   EXPECT_EQ(lateMean({1, 2, 6}), 4);
   EXPECT_EQ(lateMean({100, 100, 100, 4, 6, 8}), 6);
   EXPECT_TRUE(std::isnan(lateMean({})));
+  EXPECT_EQ(earlyMean({3, 2, 6}), 3);
+  EXPECT_EQ(earlyMean({4, 6, 100, 100}), 5);
+  EXPECT_TRUE(std::isnan(earlyMean({})));
 }
 
 }  // namespace
