@@ -52,7 +52,7 @@ class Mesher {
     const std::int32_t count = static_cast<std::int32_t>(sides_.size());
     corners_.resize(count);
     for (std::int32_t q = 0; q < count; ++q)
-      corners_[q] = cornerOf(film, outline, sides_[(q + count - 1) % count], sides_[q]);
+      corners_[q] = cornerOf(film, sides_[(q + count - 1) % count], sides_[q]);
     NetworkFilm face{film.i, film.j, count * segments_, size(network_.slots), 0, size(network_.triangles), 0};
     for (std::int32_t q = 0; q < count; ++q)
       addRimSide(film, outline, sides_[q], corners_[q], corners_[(q + 1) % count]);
@@ -134,7 +134,7 @@ class Mesher {
   }
 
   /// The node between two sides. Corners of borders belong to the other films as well.
-  std::int32_t cornerOf(const Film& film, const FilmOutline& outline, const Side& before, const Side& after) {
+  std::int32_t cornerOf(const Film& film, const Side& before, const Side& after) {
     using enum Side::Kind;
     const Vector3d& x = after.kind == border || before.kind != border ? after.from : before.to;
     if (before.kind == border && after.kind == border) {
@@ -146,7 +146,7 @@ class Mesher {
     if (before.kind != border && after.kind != border) return newNode(x, held.hold, held.axis);
     const bool ends = before.kind == border;  // the border comes to its end in this film's sense
     const std::int32_t third = ends ? before.third : after.third;
-    const int end = ends == runsForward(film, outline, ends ? before : after);
+    const int end = ends == runsForward(film, ends ? before : after);
     const auto bubbles = sorted(film.i, film.j, third);
     const auto [known, isNew] =
         endNode_.try_emplace({bubbles[0], bubbles[1], bubbles[2], end}, size(network_.nodes));
@@ -165,7 +165,7 @@ class Mesher {
   }
 
   /// Whether the film goes along a border in the border's own direction.
-  bool runsForward(const Film& film, const FilmOutline&, const Side& side) const {
+  bool runsForward(const Film& film, const Side& side) const {
     const auto [a, b, c] = sorted(film.i, film.j, side.third);
     const Vector3d& x = bubbles_.position[a];
     return (bubbles_.position[b] - x).cross(bubbles_.position[c] - x).dot(side.to - side.from) > 0;
@@ -173,7 +173,7 @@ class Mesher {
 
   void addRimSide(const Film& film, const FilmOutline& outline, const Side& side, std::int32_t from,
                   std::int32_t to) {
-    if (side.kind == Side::Kind::border) return addBorderSide(film, outline, side, from, to);
+    if (side.kind == Side::Kind::border) return addBorderSide(film, side, from, to);
     network_.slots.push_back(from);
     const bool isArc = side.kind == Side::Kind::arc;
     for (int s = 1; s < segments_; ++s) {
@@ -183,9 +183,8 @@ class Mesher {
     }
   }
 
-  void addBorderSide(const Film& film, const FilmOutline& outline, const Side& side, std::int32_t from,
-                     std::int32_t to) {
-    const bool forward = runsForward(film, outline, side);
+  void addBorderSide(const Film& film, const Side& side, std::int32_t from, std::int32_t to) {
+    const bool forward = runsForward(film, side);
     const auto bubbles = sorted(film.i, film.j, side.third);
     const auto [known, isNew] = borderOf_.try_emplace(bubbles, size(network_.borders));
     const std::int32_t first = forward ? from : to, last = forward ? to : from;
