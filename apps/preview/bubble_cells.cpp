@@ -168,7 +168,6 @@ Vec3 BubbleCells::normalAt(int bubble, int face, const Vec3& p) const {
 /// normal turns by the share of the border towards the direction that lies in that other face's mirror
 /// plane, so that the surfaces of two bubbles join without a crease.
 Rounding BubbleCells::roundedAt(int bubble, int face, const Vec3& p, float width) const {
-  constexpr float kFilmTurn = 0.8f;   // how far a film leans over in its border, as tan of the angle
   constexpr float kParallel = 1e-3f;  // sine below which two directions have no plane of their own
   Rounding rounded{normalAt(bubble, face, p), 0};
   if (width <= 0) return rounded;
@@ -192,8 +191,7 @@ Rounding BubbleCells::roundedAt(int bubble, int face, const Vec3& p, float width
     towards = face == kSkin ? plane_[f].normal : Vec3(inFace / lean);
   }
   if (nearest >= width) return rounded;
-  const float x = 1 - std::max(nearest, 0.0f) / width;
-  rounded.share = x * x * (3 - 2 * x);
+  rounded.share = borderShare(nearest, width);
   if (face == kSkin) {
     const Vec3 middle = flat - flat.dot(towards) * towards;
     if (middle.norm() > kParallel) rounded.normal += rounded.share * (middle.normalized() - rounded.normal);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,14 @@ struct Rounding {
   Vec3 normal;      ///< unit, turned towards the middle of the border
   float share = 0;  ///< 0 outside the border, 1 in its middle
 };
+
+/// How far a film leans over in its border, as tan of the angle.
+inline constexpr float kFilmTurn = 0.8f;
+/// Share of the rounding at `distance` from the middle of a border of `width`: 1 there, 0 at its edge.
+inline float borderShare(float distance, float width) {
+  const float x = 1 - std::max(distance, 0.0f) / width;
+  return x * x * (3 - 2 * x);
+}
 
 /// Every bubble as the convex piece of its ball that the radical planes of its neighbours leave (model, "Foam
 /// geometry"), cut also by the walls of the box and by solids it touches. Thread-safe.

@@ -8,14 +8,7 @@
 namespace spume::apps {
 namespace {
 
-constexpr float kFilmTurn = 0.8f;   // how far a film leans over in its border, as tan of the angle
 constexpr float kParallel = 1e-3f;  // length below which a direction is round-off
-
-/// 1 in the middle of a border, 0 at `width` from it.
-float shareAt(float distance, float width) {
-  const float x = 1 - std::max(distance, 0.0f) / width;
-  return x * x * (3 - 2 * x);
-}
 
 /// Normals of a film's nodes: of the triangles around them, by their areas.
 std::vector<Vec3> normalsOf(const foam::FilmNetwork& network, const foam::NetworkFilm& film) {
@@ -129,7 +122,7 @@ Rounding FilmSurfaces::rounded(const Hit& hit, const Vec3& p, float width) const
   Vec3 way;
   const float distance = towards(&stretch_[film.firstStretch], stretch_.data() + film.endStretch, p, way);
   if (distance >= width) return rounded;
-  rounded.share = shareAt(distance, width);
+  rounded.share = borderShare(distance, width);
   const Vec3 inFilm = way - way.dot(hit.normal) * hit.normal;
   if (inFilm.norm() > kParallel * width)
     rounded.normal = (hit.normal - kFilmTurn * rounded.share * inFilm.normalized()).normalized();
@@ -142,7 +135,7 @@ Rounding FilmSurfaces::roundedAtWall(int bubble, const Vec3& p, const Vec3& flat
   Vec3 way;
   const float distance = towards(films.data(), films.data() + films.size(), p, way);
   if (distance >= width) return rounded;
-  rounded.share = shareAt(distance, width);
+  rounded.share = borderShare(distance, width);
   const Vec3 across = way - way.dot(flat) * flat;
   if (across.norm() > kParallel * width)
     rounded.normal = (flat - kFilmTurn * rounded.share * across.normalized()).normalized();

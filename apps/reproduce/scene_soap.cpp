@@ -79,7 +79,6 @@ void addAngles(const SceneRun& run, std::vector<ResultRow>& rows) {
 
   const PlateauAngles plane = plateauAngles(run.bubbles().position, run.bubbles().radius, run.topology, dry);
   ResultRow planeFilms = rowOf(run, "films' angles, plane films of the model's cells");
-  planeFilms.note = "least surface at these volumes has 13.6 deg with plane films";
   rows.push_back(reportOnly(planeFilms, plane.filmSpread(), "deg"));
   ResultRow planeBorders = rowOf(run, "borders' angles, plane films of the model's cells");
   rows.push_back(reportOnly(planeBorders, plane.borderSpread(), "deg"));
