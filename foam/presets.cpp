@@ -12,6 +12,7 @@ FoamParams paperPreset() {
   params.dragCoefficientLimit = 2.5e-3;  // above it a bubble of 500 kg/m^3 rises twice as fast as a real one
   params.buoyancyLaw = BuoyancyLaw::hydrostatic;
   params.airDragLaw = AirDragLaw::coefficient;
+  params.attractionLaw = AttractionLaw::coefficient;
   return params;
 }
 
@@ -21,6 +22,7 @@ FoamParams physicalPreset() {
   params.dragLaw = DragLaw::contaminated;
   params.buoyancyLaw = BuoyancyLaw::pressureGradient;
   params.airDragLaw = AirDragLaw::stokes;
+  params.attractionLaw = AttractionLaw::capillary;
   return params;
 }
 

@@ -78,11 +78,10 @@ ResultRow restRow(const Settling& settled, const Crowd& crowd, double dt, const 
   return aimAtMost(row, rmsSpeed(settled.bubbles), crowd.smallest < 1e-3 ? kSmallRest : kLargeRest, "m/s");
 }
 
-/// The preset with the attraction that belongs to it.
-foam::FoamParams withAttraction(foam::Preset preset) {
+/// The preset without the attraction that belongs to it.
+foam::FoamParams withoutAttraction(foam::Preset preset) {
   foam::FoamParams params = foam::makePreset(preset);
-  params.attractionLaw =
-      preset == foam::Preset::paper ? foam::AttractionLaw::coefficient : foam::AttractionLaw::capillary;
+  params.attractionLaw = foam::AttractionLaw::none;
   return params;
 }
 
@@ -95,7 +94,7 @@ std::vector<ResultRow> rest(const StudyContext&) {
       rows.push_back(restRow(Settling(foam::makePreset(preset), kRaft, dt), kRaft, dt, name));
     for (const double dt : kRestSteps)
       rows.push_back(
-          restRow(Settling(withAttraction(preset), kRaft, dt), kRaft, dt, name + " with attraction"));
+          restRow(Settling(withoutAttraction(preset), kRaft, dt), kRaft, dt, name + " without attraction"));
     for (const double dt : kRestSteps)
       rows.push_back(restRow(Settling(foam::makePreset(preset), kPile, dt), kPile, dt, name + ", pile"));
   }
@@ -227,7 +226,7 @@ std::vector<ResultRow> equalRaft(const StudyContext&) {
   constexpr std::size_t kCount = 1000;
   constexpr double kRadius = 1e-3, kTime = 20, kStep = 0.02;  // [m], [s], [s]
   const double disc = 1.5 * std::sqrt(static_cast<double>(kCount)) * kRadius;
-  foam::FoamParams params = withAttraction(foam::Preset::physical);
+  foam::FoamParams params = foam::makePreset(foam::Preset::physical);
   params.bursting = false;
   foam::BubbleStore bubbles;
   for (std::uint64_t draw = 0; bubbles.size() < kCount; ++draw) {

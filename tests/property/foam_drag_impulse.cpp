@@ -1,6 +1,8 @@
 // What the liquid's drag gives the bubbles, which two-way coupling takes from the liquid.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "foam/forces/inertia.h"
 #include "tests/foam_fixtures.h"
 
@@ -50,6 +52,40 @@ TEST(DragImpulse, ClosesTheBalanceOfMomentum) {
     solver.step(bubbles, pool, kDt);
     const Vector3d change = momentum(params, bubbles) - before, lift = kDt * totalLift(params, bubbles);
     EXPECT_LT((change - lift - totalDrag(solver)).norm(), kRelative * lift.norm()) << step;
+  }
+}
+
+/// Afloat, level with the liquid, with everything that acts between bubbles: springs, damping, attraction,
+/// films that draw their borders, cells that hold their volumes. Without films and added mass a bubble's
+/// inertia is that of its gas, whatever of it is immersed.
+TEST(DragImpulse, ClosesTheBalanceOfAFloatingCrowdUnderEveryInternalForce) {
+  constexpr double kRelative = 1e-12;  // round-off of 200 terms, over all that drag exchanges
+  for (const Preset preset : {Preset::paper, Preset::physical}) {
+    FoamParams params = makePreset(preset);
+    params.bursting = false, params.addedMass = 0, params.wetness = params.wetnessAloft = 0;
+    params.airDragCoefficient = params.gasViscosity = 0;  // the air takes nothing
+    params.borderRate = 4, params.volumeMode = VolumeMode::newton;
+    ASSERT_NE(params.attractionLaw, AttractionLaw::none);
+    BubbleStore bubbles;
+    for (int i = 0; i < 200; ++i) {
+      CounterRandom random(9, static_cast<std::uint64_t>(i), 1);
+      const double x = random.uniform(), z = random.uniform();
+      const double r = 0.4e-3 + 0.8e-3 * random.uniform();
+      bubbles.add(bubbleAt({0.03 * x, 0, 0.03 * z}, r, {0.02 * (x - z), 0, 0.01}, BubbleClass::surface));
+    }
+    FoamSolver solver(params);
+    const StillPool pool = openPool(params);
+    for (int step = 0; step < 20; ++step) {
+      const BubbleStore before = bubbles;
+      solver.step(bubbles, pool, kDt);
+      ASSERT_EQ(bubbles.id, before.id);
+      Vector3d unbalanced = -totalDrag(solver);
+      double exchanged = 0;
+      for (std::size_t i = 0; i < bubbles.size(); ++i)
+        unbalanced += params.gasDensity * bubbles.gas[i] * (bubbles.velocity[i] - before.velocity[i]);
+      for (const DragImpulse& drag : solver.dragImpulses()) exchanged += drag.impulse.norm();
+      EXPECT_LT(std::hypot(unbalanced.x(), unbalanced.z()), kRelative * exchanged) << step;
+    }
   }
 }
 
