@@ -9,6 +9,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/reproduce.h"
 #include "apps/exit_code.h"
+#include "coupling/simd_path.h"
 
 namespace spume::apps {
 namespace {
@@ -46,7 +47,7 @@ std::string verbProblem(const CLI::App& program, int argc, char** argv) {
 int parseAndPerform(int argc, char** argv) {
   CLI::App program{"Bubbles and foam in a liquid."};
   program.name("spume");
-  program.set_version_flag("--version", SPUME_VERSION " (" SPUME_SIMD_PATH ")");
+  program.set_version_flag("--version", std::string(SPUME_VERSION " (") + coupling::kSimdPath + ")");
   program.require_subcommand(1);
   program.footer(
       "`spume VERB --help` explains a verb and gives examples.\n"

@@ -9,6 +9,7 @@
 
 #include "coupling/atomic_file.h"
 #include "coupling/scene_toml.h"
+#include "coupling/simd_path.h"
 #include "coupling/state_archive.h"
 
 namespace spume::coupling {
@@ -53,7 +54,7 @@ Value& asWritable(const Value& value) {
 
 std::string payloadOf(const Scene& scene, const SimulationState& state) {
   ArchiveWriter writer;
-  std::string text = writeScene(scene), simd = SPUME_SIMD_PATH;
+  std::string text = writeScene(scene), simd = kSimdPath;
   archiveAll(writer, text, simd, asWritable(state));
   return std::move(writer.bytes);
 }
@@ -107,8 +108,8 @@ std::vector<std::string> checkpointsIn(const std::string& folder) {
 
 void requireSameRun(const std::string& path, const Contents& contents, const Scene& scene) {
   std::vector<std::string> differences = sceneDifferences(contents.scene, writeScene(scene));
-  if (contents.simd != SPUME_SIMD_PATH)
-    differences.push_back("SIMD path = " + contents.simd + " there, " SPUME_SIMD_PATH " here");
+  if (contents.simd != kSimdPath)
+    differences.push_back("SIMD path = " + contents.simd + " there, " + kSimdPath + " here");
   if (differences.empty()) return;
   std::string message = path + ": belongs to another run; start anew or undo the difference:";
   for (const std::string& difference : differences) message += " " + difference + ";";

@@ -76,6 +76,8 @@ void addForceKeys(KeyTableBuilder<foam::FoamParams>& table) {
 void addLifeKeys(KeyTableBuilder<foam::FoamParams>& table) {
   using foam::FoamParams;
   table
+      .choice("connectivity", &FoamParams::connectivity, {"local", "global"},
+              "engine of contacts and cells; the global one is the reference, and some twenty times slower")
       .choice("volume_mode", &FoamParams::volumeMode, {"relax", "newton"},
               "cells regain their gas each by itself, or solved together")
       .key("volume_rate", &FoamParams::volumeRate, {0, 1000, "1/s"}, "gamma, how fast a cell regains its gas")

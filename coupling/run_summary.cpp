@@ -13,6 +13,7 @@
 
 #include "coupling/atomic_file.h"
 #include "coupling/scene_builder.h"
+#include "coupling/simd_path.h"
 #include "coupling/toml_slot.h"
 
 namespace spume::coupling {
@@ -64,7 +65,7 @@ JsonObject machine() {
 JsonObject versions() {
   return JsonObject()
       .add("spume", SPUME_VERSION)
-      .add("simd", SPUME_SIMD_PATH)
+      .add("simd", kSimdPath)
       .add("compiler", __VERSION__)
       .add("openvdb", OPENVDB_LIBRARY_VERSION_STRING)
       .add("tbb", TBB_runtime_version());

@@ -14,6 +14,9 @@ enum class AirDragLaw { coefficient, stokes };
 enum class AttractionLaw { none, coefficient, capillary };
 enum class WetnessLaw { constant, height, perBubble };
 enum class VolumeMode { relax, newton };
+/// Which engine finds contacts and cells of the whole foam: PowerCells, or PowerDiagram as the reference. What
+/// comes of it differs by round-off; the latter takes some twenty times as long.
+enum class Connectivity { local, global };
 /// Conjugate gradients with the diagonal blocks or an incomplete Cholesky factor, or a direct factorisation.
 enum class LinearSolver { pcgJacobi, pcgIncompleteCholesky, cholmod };
 
@@ -70,6 +73,8 @@ struct FoamParams {
   /// rate at which films draw their borders to Plateau's law, see border_drift.h [1/s], 0 (none, costs
   /// nothing) to 100; a step goes at most a tenth of the way, which rates above 5 meet in steps of 20 ms
   double borderRate = 0;
+
+  Connectivity connectivity = Connectivity::local;
 
   VolumeMode volumeMode = VolumeMode::relax;  ///< each cell by itself, or all with their neighbours in mind
   double volumeRate = 10;                     ///< gamma [1/s], 0 to 1000

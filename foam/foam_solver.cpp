@@ -61,7 +61,8 @@ void requireFinite(const BubbleStore& bubbles) {
 }  // namespace
 
 struct FoamSolver::Internals {
-  explicit Internals(FoamParams p) : params((p.validate(), std::move(p))), integrator(params) {}
+  explicit Internals(FoamParams p)
+      : params((p.validate(), std::move(p))), integrator(params), cells(params.connectivity) {}
 
   FoamParams params;
   Integrator integrator;
@@ -143,13 +144,14 @@ void FoamSolver::Internals::findWalls(const LiquidSampler& liquid) {
 
 void FoamSolver::Internals::measure() {
   cells.compute(next, walls, topology);
-  cells.listNeighbours(neighbours);
+  cells.listNeighbours(topology, neighbours);
   topologyId = next.id;
 }
 
-/// As measure(), from what the last step has left.
+/// As measure(), by the local engine from what the last step has left.
 void FoamSolver::Internals::measureStart() {
-  if (kept.renew(next, walls, topology, neighbours))
+  const bool isLocal = params.connectivity == Connectivity::local;
+  if (isLocal && kept.renew(next, walls, topology, neighbours))
     topologyId = next.id;
   else
     measure();

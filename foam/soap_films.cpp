@@ -14,7 +14,7 @@ SoapFilms filmsBetween(const BubbleStore& bubbles, const std::vector<NearWalls>&
   WallCells cells;
   cells.compute(bubbles, walls, topology);
   Neighbours neighbours;
-  cells.listNeighbours(neighbours);
+  cells.listNeighbours(topology, neighbours);
   SoapFilms films{meshFilms(bubbles, topology, neighbours, walls, segments), {}};
   films.report = relaxFilms(topology.volume, settings, films.network);
   return films;

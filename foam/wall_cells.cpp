@@ -4,11 +4,32 @@
 #include <cmath>
 
 #include "foam/parallel.h"
+#include "foam/power_diagram.h"
 
 namespace spume::foam {
 namespace {
 
 constexpr std::uint64_t kPlanesPerBubble = 4;  // at least as many as NearWalls knows
+
+/// Leaves out the balls from row `bubbles` on, which stand for planes, and their faces, which are no films.
+void leaveOutPlanes(std::size_t bubbles, FoamTopology& topology) {
+  const auto isOfBubbles = [&](const auto& pair) { return static_cast<std::size_t>(pair.j) < bubbles; };
+  std::vector<std::int32_t> place(topology.films.size(), -1);
+  std::vector<Film> films;
+  for (std::size_t f = 0; f < topology.films.size(); ++f)
+    if (isOfBubbles(topology.films[f])) {
+      place[f] = static_cast<std::int32_t>(films.size());
+      films.push_back(topology.films[f]);
+    }
+  topology.films.swap(films);
+  std::erase_if(topology.overlaps, [&](const OverlapPair& pair) { return !isOfBubbles(pair); });
+  for (OverlapPair& pair : topology.overlaps)
+    if (pair.film >= 0) pair.film = place[pair.film];
+  for (auto* column : {&topology.volume, &topology.freeArea}) column->resize(bubbles);
+  topology.hidden.resize(bubbles), topology.filmArea.assign(bubbles, 0);
+  for (const Film& film : topology.films)
+    for (const std::int32_t i : {film.i, film.j}) topology.filmArea[i] += film.area;
+}
 
 }  // namespace
 
@@ -63,8 +84,20 @@ void WallCells::compute(const BubbleStore& bubbles, const std::vector<NearWalls>
   };
   join(position_, bubbles.position, planes_.position), join(radius_, bubbles.radius, planes_.radius);
   join(id_, bubbles.id, planes_.id);
-  cells_.compute(position_, radius_, id_, out, planes_.owner.size());
+  if (engine_ == Connectivity::local) {
+    cells_.compute(position_, radius_, id_, out, planes_.owner.size());
+  } else {
+    PowerDiagram().compute(position_, radius_, id_, out);
+    leaveOutPlanes(bubbles.size(), out);
+  }
   for (const std::int32_t i : planes_.behind) out.volume[i] = out.freeArea[i] = 0;
+}
+
+void WallCells::listNeighbours(const FoamTopology& topology, Neighbours& out) const {
+  if (engine_ == Connectivity::local)
+    cells_.listNeighbours(out);
+  else
+    out.build(topology.volume.size(), topology.overlaps);
 }
 
 }  // namespace spume::foam

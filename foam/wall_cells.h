@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "foam/bubble_store.h"
+#include "foam/foam_params.h"
 #include "foam/foam_topology.h"
 #include "foam/near_walls.h"
 #include "foam/power_cells.h"
@@ -43,14 +44,17 @@ bool cutAlike(double radius, const NearWalls& a, const NearWalls& b);
 /// 2012, 5.2] doubles the volume of every wall bubble.
 class WallCells {
  public:
+  explicit WallCells(Connectivity engine = Connectivity::local) : engine_(engine) {}
+
   /// As PowerCells::compute, with volumes, free areas and films on the free side of the solids only; a bubble
   /// wholly behind a plane has volume and areas 0. `walls`: within a radius of each bubble, or empty where
   /// none is cut; that costs as much as PowerCells.
   void compute(const BubbleStore& bubbles, const std::vector<NearWalls>& walls, FoamTopology& out);
-  /// As PowerCells::listNeighbours.
-  void listNeighbours(Neighbours& out) const { cells_.listNeighbours(out); }
+  /// The overlapping pairs of `topology`, which is that of the last call, as Neighbours::build gives them.
+  void listNeighbours(const FoamTopology& topology, Neighbours& out) const;
 
  private:
+  Connectivity engine_;
   PowerCells cells_;
   WallPlanes planes_;
   std::vector<Eigen::Vector3d> position_;  ///< of the bubbles, then of the balls behind planes [m]

@@ -4,6 +4,12 @@
 /// Prints a table.
 ///
 /// usage: bench_foam_step [bubbles] [wetness %] [steps] [dt ms] [pcg_ic|pcg_jacobi|cholmod] [reference 0|1]
+///                        [contacts|complete]
+///        bench_foam_step all FILE.csv
+/// `contacts`: forces between bubbles in contact, walls, liquid; volumes relaxed. `complete`: also attraction
+/// at the surface, and every cell made to hold its gas (`newton`). `all` runs 4K, 16K, 100K and 1M bubbles,
+/// wet and dense, each beside its reference, and the complete step at each size dense; FILE.csv gets a row a
+/// stage.
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
@@ -13,6 +19,8 @@
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "foam/foam_solver.h"
 #include "foam/power_diagram.h"
@@ -30,17 +38,43 @@ struct Options {
   double dt = 5e-3;  ///< [s]
   LinearSolver solver = LinearSolver::pcgIncompleteCholesky;
   bool reference = true;
+  bool complete = false;
 
+  Options() = default;
+  /// Exits where the command line is none.
   Options(int argc, char** argv) {
-    const auto number = [&](int k, double fallback) { return argc > k ? std::atof(argv[k]) : fallback; };
-    bubbles = static_cast<int>(number(1, bubbles));
-    wetness = number(2, 100 * wetness) / 100;
-    steps = static_cast<int>(number(3, steps));
-    dt = number(4, 1e3 * dt) / 1e3;
+    const auto number = [&](int k, double fallback, double least) {
+      if (argc <= k) return fallback;
+      char* end = nullptr;
+      const double value = std::strtod(argv[k], &end);
+      if (end == argv[k] || *end != 0 || !(value >= least)) refuse(argv[k]);
+      return value;
+    };
+    bubbles = static_cast<int>(number(1, bubbles, 2));
+    wetness = number(2, 100 * wetness, 0) / 100;
+    steps = static_cast<int>(number(3, steps, 1));
+    dt = number(4, 1e3 * dt, 1e-3) / 1e3;
     const std::string name = argc > 5 ? argv[5] : "pcg_ic";
-    if (name == "pcg_jacobi") solver = LinearSolver::pcgJacobi;
-    if (name == "cholmod") solver = LinearSolver::cholmod;
-    reference = number(6, 1) != 0;
+    if (name == "pcg_jacobi")
+      solver = LinearSolver::pcgJacobi;
+    else if (name == "cholmod")
+      solver = LinearSolver::cholmod;
+    else if (name != "pcg_ic")
+      refuse(name);
+    reference = number(6, 1, 0) != 0;
+    const std::string forces = argc > 7 ? argv[7] : "contacts";
+    complete = forces == "complete";
+    if (!complete && forces != "contacts") refuse(forces);
+  }
+
+  [[noreturn]] static void refuse(const std::string& word) {
+    std::fprintf(
+        stderr,
+        "bench_foam_step: %s does not fit\nusage: bench_foam_step [bubbles >= 2] [wetness %%] [steps >= 1] "
+        "[dt ms] [pcg_ic|pcg_jacobi|cholmod] [reference 0|1] [contacts|complete]\n"
+        "       bench_foam_step all FILE.csv\n",
+        word.c_str());
+    std::exit(2);
   }
 };
 
@@ -114,43 +148,100 @@ struct StepTimes {
   double operator[](const std::string& name) const { return medianOf(seconds.at(name)); }
 };
 
-void printReference(const Reference& reference, const StepTimes& times) {
-  const double rest = times["step"] - times["geometry"] - times["solve"];
-  const auto row = [](const char* name, double theirs, double ours) {
-    std::printf("  %-46s %9.4f s  %6.1f times ours\n", name, theirs, theirs / ours);
-  };
-  std::printf("reference (%ld iterations)\n", reference.iterations);
-  row("triangulation, alpha complex", reference.complex, times["geometry"]);
-  row("the same with cell volumes", reference.withVolumes, times["geometry"]);
-  row("Eigen conjugate gradients, incomplete Cholesky", reference.solve, times["solve"]);
-  row("step without volumes", rest + reference.complex + reference.solve, times["step"]);
-  row("step with volumes", rest + reference.withVolumes + reference.solve, times["step"]);
-}
+/// What the run of one foam gives: named seconds, and what the foam was.
+struct Result {
+  Options options;
+  double contacts = 0;  ///< a bubble
+  FoamStepReport last;
+  std::vector<std::pair<std::string, double>> stages;     ///< of the step, itself the last [s]
+  std::vector<std::pair<std::string, double>> reference;  ///< [s]
+};
 
-int run(const Options& options) {
+Result measure(const Options& options) {
   FloatingFoam foam(options.bubbles, options.wetness);
   foam.params.solver = options.solver;
+  if (options.complete)
+    foam.params.volumeMode = VolumeMode::newton;
+  else
+    foam.params.attractionLaw = AttractionLaw::none;
   const StillPool pool(foam.box);
   FoamSolver solver(foam.params);
   StepTimes times;
-  FoamStepReport report;
+  Result result{options, 0, {}, {}, {}};
   for (int step = -kWarmUp; step < options.steps; ++step) {
-    const double total = secondsOf([&] { report = solver.step(foam.bubbles, pool, options.dt); });
-    if (step >= 0) times.add(report, total);
+    const double total = secondsOf([&] { result.last = solver.step(foam.bubbles, pool, options.dt); });
+    if (step >= 0) times.add(result.last, total);
   }
+  result.contacts = 2.0 * static_cast<double>(result.last.contacts) / options.bubbles;
+  for (const auto& name : times.names) result.stages.emplace_back(name, times[name]);
+  if (!options.reference) return result;
+  const Reference reference(foam, pool, options.dt);
+  const double rest = times["step"] - times["geometry"] - times["solve"];
+  result.reference = {{"reference complex", reference.complex},
+                      {"reference complex with volumes", reference.withVolumes},
+                      {"reference solve", reference.solve},
+                      {"reference step", rest + reference.complex + reference.solve},
+                      {"reference step with volumes", rest + reference.withVolumes + reference.solve}};
+  return result;
+}
+
+void print(const Result& result) {
+  const Options& options = result.options;
   std::printf(
-      "%d bubbles, wetness %.2f, dt %g ms: %.2f contacts per bubble, %d iterations, fastest %.3g m/s%s\n",
-      options.bubbles, options.wetness, 1e3 * options.dt,
-      2.0 * static_cast<double>(report.contacts) / options.bubbles, report.solverIterations, report.maxSpeed,
-      report.solverFellBack ? ", direct solver" : "");
-  for (const auto& name : times.names)
-    std::printf("  %-12s %9.4f s  %8.1f ns per bubble\n", name.c_str(), times[name],
-                1e9 * times[name] / options.bubbles);
-  if (options.reference) printReference(Reference(foam, pool, options.dt), times);
+      "%d bubbles, wetness %.2f, dt %g ms%s: %.2f contacts per bubble, %d iterations, fastest %.3g m/s%s\n",
+      options.bubbles, options.wetness, 1e3 * options.dt, options.complete ? ", complete" : "",
+      result.contacts, result.last.solverIterations, result.last.maxSpeed,
+      result.last.solverFellBack ? ", direct solver" : "");
+  for (const auto& [name, seconds] : result.stages)
+    std::printf("  %-12s %9.4f s  %8.1f ns per bubble\n", name.c_str(), seconds,
+                1e9 * seconds / options.bubbles);
+  const double step = result.stages.back().second;
+  for (const auto& [name, seconds] : result.reference)
+    std::printf("  %-32s %9.4f s  %6.1f times our step\n", name.c_str(), seconds, seconds / step);
+  std::fflush(stdout);
+}
+
+/// Appends a row a stage.
+void write(const Result& result, std::FILE* table) {
+  for (const auto* part : {&result.stages, &result.reference})
+    for (const auto& [name, seconds] : *part)
+      std::fprintf(table, "%d,%g,%s,%.2f,%d,%s,%.5g,%.5g\n", result.options.bubbles, result.options.wetness,
+                   result.options.complete ? "complete" : "contacts", result.contacts,
+                   result.last.solverIterations, name.c_str(), seconds,
+                   1e9 * seconds / result.options.bubbles);
+  std::fflush(table);
+}
+
+int runAll(const char* path) {
+  std::FILE* table = std::fopen(path, "w");
+  if (table == nullptr) {
+    std::fprintf(stderr, "bench_foam_step: %s: cannot be written\n", path);
+    return 4;
+  }
+  std::fprintf(table, "bubbles,wetness,forces,contacts_per_bubble,iterations,stage,seconds,ns_per_bubble\n");
+  const auto add = [&](const Options& options) {
+    const Result result = measure(options);
+    print(result), write(result, table);
+  };
+  for (const int bubbles : {4000, 16000, 100000, 1000000}) {
+    Options options;
+    options.bubbles = bubbles, options.steps = bubbles > 100000 ? 3 : 9;
+    for (const double wetness : {0.4, 0.8}) options.wetness = wetness, add(options);
+    options.wetness = 0.4, options.complete = true, options.reference = false, add(options);
+  }
+  return std::fclose(table) == 0 ? 0 : 4;
+}
+
+int run(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "all") {
+    if (argc != 3) Options::refuse("all");
+    return runAll(argv[2]);
+  }
+  print(measure(Options(argc, argv)));
   return 0;
 }
 
 }  // namespace
 }  // namespace spume::foam::test
 
-int main(int argc, char** argv) { return spume::foam::test::run(spume::foam::test::Options(argc, argv)); }
+int main(int argc, char** argv) { return spume::foam::test::run(argc, argv); }

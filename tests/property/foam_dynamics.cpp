@@ -97,6 +97,26 @@ TEST(FoamDynamics, ResultIsTheSameToTheBitForAnyNumberOfThreads) {
   }
 }
 
+TEST(FoamDynamics, BothEnginesGiveTheSameSteps) {
+  constexpr double kSame = 1e-8;  // of a radius: five steps of a solve to 1e-10
+  FoamParams params = makePreset(Preset::physical);
+  params.volumeMode = VolumeMode::newton, params.solverTolerance = 1e-10, params.volumeTolerance = 1e-9;
+  BubbleStore local = randomCloud(100, 12e-3, 0, 0.3e-3, 1e-3), global = local;
+  StillPoolParams box;
+  box.lower = {-6e-3, -13e-3, -6e-3}, box.upper = {6e-3, 6e-3, 6e-3};
+  box.closed = {true, true, true, false, true, true};
+  FoamSolver ofCells(params);
+  params.connectivity = Connectivity::global;
+  FoamSolver ofDiagram(params);
+  for (int step = 0; step < 5; ++step)
+    ofCells.step(local, StillPool(box), 0.005), ofDiagram.step(global, StillPool(box), 0.005);
+  ASSERT_EQ(local.id, global.id);
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    EXPECT_LT((local.position[i] - global.position[i]).norm(), kSame * local.radius[i]) << i;
+    EXPECT_NEAR(local.radius[i], global.radius[i], kSame * local.radius[i]) << i;
+  }
+}
+
 TEST(FoamDynamics, TheSolverKeepsNoState) {
   // A fresh solver continues a store as the old one would: a resumed run equals an uninterrupted one.
   const FoamParams params = makePreset(Preset::physical);

@@ -19,13 +19,14 @@ StillPool floorAtZero() {
   return StillPool(pool);
 }
 
-FoamTopology wallCellsOf(const BubbleStore& bubbles, const StillPool& pool) {
+FoamTopology wallCellsOf(const BubbleStore& bubbles, const StillPool& pool,
+                         Connectivity engine = Connectivity::local) {
   Surroundings around;
   around.sample(pool, bubbles.positions());
   std::vector<NearWalls> walls;
   findNearWalls(pool, around, bubbles, bubbles.radius, walls);
   FoamTopology topology;
-  WallCells().compute(bubbles, walls, topology);
+  WallCells(engine).compute(bubbles, walls, topology);
   return topology;
 }
 
@@ -95,6 +96,27 @@ TEST(WallCells, ADenseFoamOnAFloorIsThatOfItsMirrorImage) {
   }
   EXPECT_GT(atWall, 10);
   EXPECT_EQ(cut.volume.size(), balls.size());
+}
+
+TEST(WallCells, BothEnginesCutAlike) {
+  const Balls balls = randomFoam(150, 0.4, 3, 0.9, 6);
+  BubbleStore bubbles;
+  for (std::size_t i = 0; i < balls.size(); ++i) bubbles.add(bubbleAt(balls.position[i], balls.radius[i]));
+  StillPoolParams corner;
+  corner.lower = {0, 0, -1e3}, corner.upper = {1e3, 1e3, 1e3};
+  corner.closed = {true, false, true, false, false, false};
+  const FoamTopology local = wallCellsOf(bubbles, StillPool(corner));
+  const FoamTopology global = wallCellsOf(bubbles, StillPool(corner), Connectivity::global);
+  EXPECT_EQ(local.hidden, global.hidden);
+  ASSERT_EQ(local.overlaps.size(), global.overlaps.size());
+  for (std::size_t p = 0; p < local.overlaps.size(); ++p)
+    EXPECT_EQ(local.overlaps[p].film, global.overlaps[p].film) << p;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const double r = balls.radius[i];
+    EXPECT_NEAR(local.volume[i], global.volume[i], kRoundOff * ballVolume(r)) << i;
+    EXPECT_NEAR(local.freeArea[i], global.freeArea[i], 10 * kRoundOff * r * r) << i;
+    EXPECT_NEAR(local.filmArea[i], global.filmArea[i], 10 * kRoundOff * r * r) << i;
+  }
 }
 
 TEST(WallCells, AwayFromWallsNothingChanges) {
