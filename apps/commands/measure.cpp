@@ -88,6 +88,8 @@ int measure(const MeasureOptions& options) {
   const Clock::time_point start = Clock::now();
   checkPaths(options);
   const coupling::BubbleTable bubbles = coupling::readBubbleTable(options.bubbles);
+  if (const std::string words = coupling::wordsOnUnread(options.bubbles, bubbles); !words.empty())
+    std::cerr << "warning: " << words << '\n';
   const Clock::time_point read = Clock::now();
   const foam::FoamTopology topology = topologyOf(bubbles, options.engine);
   const double geometrySeconds = secondsSince(read);

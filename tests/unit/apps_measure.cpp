@@ -121,6 +121,14 @@ TEST(Measure, TotalsAreThoseOfTheUnion) {
     EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " is not in:\n" << outcome.output;
 }
 
+TEST(Measure, WarnsOfColumnsThatItDoesNotRead) {
+  const Scratch scratch;
+  const std::string input = scratch.write("one.csv", "id,x,y,z,r,lambda\n0,0,0,0,1,0.5\n");
+  const Outcome outcome = runSpume("measure " + input);
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.errors.find("warning: " + input + ": column 'lambda' is not read"), std::string::npos);
+}
+
 TEST(Measure, ReadsPlyLikeCsv) {
   const Scratch scratch;
   const std::string header =
