@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace spume::apps {
 namespace {
@@ -23,12 +24,20 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+/// With as many digits as it takes, 17 at most, to read back the same number.
+std::string exactText(double value) {
+  char text[32];
+  for (int digits = 9; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
 }  // namespace
 
 void Report::add(const std::string& key, double value, const std::string& unit) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  rows_.push_back({key, std::isfinite(value) ? text : "null", unit, false});
+  rows_.push_back({key, std::isfinite(value) ? exactText(value) : "null", unit, false});
 }
 
 void Report::add(const std::string& key, const std::string& value) {

@@ -8,7 +8,7 @@ namespace spume::apps {
 /// Named values for a person or, as one flat JSON object, for a program.
 class Report {
  public:
-  /// `unit` is shown to persons; for programs it belongs in the key.
+  /// Shown so that it reads back exactly. `unit` is shown to persons; for programs it belongs in the key.
   void add(const std::string& key, double value, const std::string& unit = {});
   void add(const std::string& key, const std::string& value);
 

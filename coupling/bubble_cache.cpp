@@ -4,6 +4,7 @@
 #include <openvdb/points/PointConversion.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "coupling/bubble_record.h"
 #include "coupling/drop_cache.h"
@@ -14,7 +15,7 @@ namespace {
 
 namespace points = openvdb::points;
 
-constexpr char kGridName[] = "bubbles", kDropsName[] = "drops";
+constexpr char kGridName[] = "bubbles", kDropsName[] = "drops", kFlags[] = "flags";
 
 /// Adds an attribute whose value for bubble n is value(n).
 template <typename Value, typename Get>
@@ -63,6 +64,8 @@ points::PointDataGrid::Ptr pointGrid(const foam::BubbleStore& bubbles, double vo
                              [&](std::size_t n) { return static_cast<std::int32_t>(bubbles.type[n]); });
   addAttribute<float>(*grid, *index, "vol", count, column(bubbles.gas));
   addAttribute<float>(*grid, *index, "wetness", count, column(bubbles.wetness));
+  addAttribute<std::int32_t>(*grid, *index, kFlags, count,
+                             [&](std::size_t n) { return flagsOf(bubbles, n); });
   return grid;
 }
 
@@ -111,6 +114,8 @@ void appendRecords(const Leaf& leaf, const openvdb::math::Transform& transform,
   const points::AttributeHandle<std::int32_t> type(leaf.constAttributeArray("type"));
   const auto radius = numbers("pscale"), age = numbers("age"), gas = numbers("vol"),
              wetness = numbers("wetness");
+  std::optional<points::AttributeHandle<std::int32_t>> flags;
+  if (leaf.hasAttribute(kFlags)) flags.emplace(leaf.constAttributeArray(kFlags));
   for (auto at = leaf.beginIndexOn(); at; ++at) {
     BubbleRecord record;
     const openvdb::Vec3d world =
@@ -121,6 +126,7 @@ void appendRecords(const Leaf& leaf, const openvdb::math::Transform& transform,
     record.radius = radius.get(*at), record.age = age.get(*at);
     record.gas = gas.get(*at), record.wetness = wetness.get(*at);
     record.id = id.get(*at), record.type = type.get(*at);
+    if (flags) record.flags = flags->get(*at);
     records.push_back(record);
   }
 }

@@ -8,8 +8,9 @@
 namespace spume::coupling {
 
 /// The two bubble files hold the same attributes: P [m], v [m/s], pscale = radius [m], id, age [s],
-/// type (0 liquid, 1 surface, 2 air), vol = gas [m^3], wetness. Numbers are float, as their readers expect;
-/// `id` is int64 in VDB and double in PLY, which has no 64-bit integer (exact to 2^53).
+/// type (0 liquid, 1 surface, 2 air), vol = gas [m^3], wetness, flags (1 hidden, 2 at its radius limit, 3
+/// both). Numbers are float, as their readers expect; `id` is int64 in VDB and double in PLY, which has no
+/// 64-bit integer (exact to 2^53). Files without flags are read, too: none is set.
 
 /// Writes bubbles.####.vdb: one PointDataGrid named `bubbles`. `voxel` [m] only sets its bucketing. Atomic.
 /// Throws FileError.

@@ -11,6 +11,8 @@
 
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/bubble_columns.h"
+#include "coupling/text_fields.h"
 
 namespace spume::coupling {
 namespace {
@@ -56,6 +58,13 @@ void checkVector(const Eigen::Vector3d& value, const char* const (&column)[3], c
                        "; it must be finite [" + unit + "]");
 }
 
+void checkWetness(const BubbleTable& bubbles, std::size_t row, const PlaceOf& placeOf) {
+  const double wetness = bubbles.wetness[row];
+  if (!(wetness >= 0 && wetness <= 1))
+    throw SceneError(placeOf(row, "wetness") + ": wetness = " + shown(wetness) + " of bubble " +
+                     std::to_string(bubbles.id[row]) + "; allowed: 0 (dry) to 1 (wet) [-]");
+}
+
 /// Names the earliest row that repeats an id, and the row it repeats.
 void checkIds(const BubbleTable& bubbles, const PlaceOf& placeOf) {
   const std::vector<std::uint64_t>& id = bubbles.id;
@@ -75,11 +84,10 @@ void checkIds(const BubbleTable& bubbles, const PlaceOf& placeOf) {
 /// A cache of a run holds float numbers and no line to point at.
 BubbleTable readVdbTable(const std::string& path) {
   foam::BubbleStore bubbles = readBubblesVdb(path).bubbles;
-  BubbleTable table{std::move(bubbles.id),
-                    std::move(bubbles.position),
-                    std::move(bubbles.radius),
-                    std::move(bubbles.velocity),
-                    {}};
+  BubbleTable table;
+  table.id = std::move(bubbles.id), table.position = std::move(bubbles.position);
+  table.radius = std::move(bubbles.radius), table.velocity = std::move(bubbles.velocity);
+  table.wetness = std::move(bubbles.wetness);
   checkBubbles(table, [&](std::size_t row, std::string_view) {
     return path + ": point with id " + std::to_string(table.id[row]);
   });
@@ -111,8 +119,21 @@ void checkBubbles(const BubbleTable& bubbles, const PlaceOf& placeOf) {
     checkVector(bubbles.position[row], kAxis, "m", row, placeOf);
     checkRadius(bubbles, row, placeOf);
     checkVector(bubbles.velocity[row], kVelocity, "m/s", row, placeOf);
+    if (!bubbles.wetness.empty()) checkWetness(bubbles, row, placeOf);
   }
   checkIds(bubbles, placeOf);
+}
+
+std::string wordsOnUnread(const std::string& path, const BubbleTable& bubbles) {
+  if (bubbles.unread.empty()) return "";
+  std::string names;
+  for (const std::string& name : bubbles.unread)
+    names += (names.empty() ? "" : ", ") + coupling::quoted(name);
+  std::string known;
+  for (const std::string_view name : kBubbleColumnName) known.append(known.empty() ? "" : ", ").append(name);
+  const bool one = bubbles.unread.size() == 1;
+  return path + (one ? ": column " : ": columns ") + names + (one ? " is" : " are") +
+         " not read; those that are: " + known;
 }
 
 BubbleTable readBubbleTable(const std::string& path) {

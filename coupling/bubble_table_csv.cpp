@@ -65,6 +65,7 @@ class CsvReader {
   std::vector<std::string> names_;     ///< of the header
   std::vector<std::size_t> role_;      ///< by field: its BubbleColumn, or kIgnored
   std::vector<std::size_t> rowStart_;  ///< by bubble: bytes before its line
+  bool hasWetness_ = false;
   BubbleTable table_;
 };
 
@@ -78,6 +79,8 @@ void CsvReader::assignColumn(std::string_view name) {
   const std::size_t role = bubbleColumn(name);
   if (role != kIgnored && std::count(role_.begin(), role_.end(), role))
     lines_.fail(name, "column " + std::string(name) + " is given twice");
+  if (role == kIgnored && !name.empty()) table_.unread.emplace_back(name);
+  hasWetness_ = hasWetness_ || role == kWetness;
   names_.emplace_back(name);
   role_.push_back(role);
 }
@@ -85,7 +88,7 @@ void CsvReader::assignColumn(std::string_view name) {
 void CsvReader::requireColumns(std::string_view header) const {
   const auto given = [&](std::size_t column) { return std::count(role_.begin(), role_.end(), column); };
   const bool velocity = given(kVx) || given(kVy) || given(kVz);
-  for (std::size_t column = 0; column < (velocity ? kBubbleColumns : kVx); ++column) {
+  for (std::size_t column = 0; column < (velocity ? kWetness : kVx); ++column) {
     if (given(column)) continue;
     const std::string nearest = nearestUnused(kBubbleColumnName[column]);
     lines_.fail(header, "column " + std::string(kBubbleColumnName[column]) + " is missing" +
@@ -125,6 +128,7 @@ void CsvReader::readRow(std::string_view line) {
   table_.position.emplace_back(value[kX], value[kY], value[kZ]);
   table_.radius.push_back(value[kR]);
   table_.velocity.emplace_back(value[kVx], value[kVy], value[kVz]);
+  if (hasWetness_) table_.wetness.push_back(value[kWetness]);
 }
 
 std::string CsvReader::placeOf(std::size_t row, std::string_view column) const {

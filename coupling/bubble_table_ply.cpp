@@ -33,6 +33,7 @@ class PlyReader {
   void readAscii();
   void readAsciiRow(std::string_view line, std::size_t row);
   void readBinary();
+  void resize();
   void store(std::size_t row, std::uint64_t id, const BubbleValues& value);
   std::uint64_t binaryId(std::size_t row, double value) const;
   [[noreturn]] void failShort(std::size_t held) const;
@@ -51,6 +52,7 @@ void PlyReader::findColumns() {
   for (const char* name : {"pscale", "radius"})  // what renderers call it goes before a mere r
     if (header_.find(name) != kAbsent) property_[kR] = header_.find(name);
   for (const BubbleColumn column : {kX, kY, kZ, kR}) requireColumn(column);
+  table_.isNumbered = property_[kId] == kAbsent;
 }
 
 void PlyReader::requireColumn(BubbleColumn column) const {
@@ -69,7 +71,7 @@ void PlyReader::requireColumn(BubbleColumn column) const {
 void PlyReader::readAscii() {
   const std::size_t shortest = 2 * header_.properties.size();  // a digit and a blank a property
   if (header_.vertices > lines_.rest().size() / shortest + 1) failShort(lines_.rest().size() / shortest);
-  table_.resize(header_.vertices);
+  resize();
   rowStart_.resize(header_.vertices);
   std::string_view line;
   for (std::size_t row = 0; row < header_.vertices;) {
@@ -102,7 +104,7 @@ void PlyReader::readAsciiRow(std::string_view line, std::size_t row) {
 void PlyReader::readBinary() {
   const std::string_view data = lines_.rest();
   if (header_.vertices > data.size() / header_.stride) failShort(data.size() / header_.stride);
-  table_.resize(header_.vertices);
+  resize();
   for (std::size_t row = 0; row < header_.vertices; ++row) {
     BubbleValues value{};
     for (std::size_t c = 0; c < kBubbleColumns; ++c) {
@@ -114,11 +116,17 @@ void PlyReader::readBinary() {
   }
 }
 
+void PlyReader::resize() {
+  table_.resize(header_.vertices);
+  if (property_[kWetness] != kAbsent) table_.wetness.resize(header_.vertices);
+}
+
 void PlyReader::store(std::size_t row, std::uint64_t id, const BubbleValues& value) {
   table_.id[row] = id;
   table_.position[row] = {value[kX], value[kY], value[kZ]};
   table_.radius[row] = value[kR];
   table_.velocity[row] = {value[kVx], value[kVy], value[kVz]};
+  if (!table_.wetness.empty()) table_.wetness[row] = value[kWetness];
 }
 
 std::uint64_t PlyReader::binaryId(std::size_t row, double value) const {

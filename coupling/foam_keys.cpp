@@ -195,7 +195,8 @@ KeyTable bubblesTable() {
   return listTable("bubbles", "Bubbles that are there at the start: one, or those of a file.",
                    &Scene::bubbles)
       .key("file", &BubblesSpec::file,
-           "id,x,y,z,r and vx,vy,vz of many; .csv, .ply or .vdb, beside the scene")
+           "id,x,y,z,r of many, and vx,vy,vz and wetness where it has them; .csv, .ply or .vdb, beside the "
+           "scene; their ids are kept")
       .key(
           "position", [](BubblesSpec & b) -> auto& { return b.bubble.position; }, kPlace, "centre")
       .onlyIf(single, words)
@@ -207,7 +208,8 @@ KeyTable bubblesTable() {
       .required()
       .onlyIf(single, words)
       .key(
-          "wetness", [](BubblesSpec & b) -> auto& { return b.bubble.wetness; }, {0, 1, "-"}, "its lambda")
+          "wetness", [](BubblesSpec & b) -> auto& { return b.bubble.wetness; }, {0, 1, "-"},
+          "its lambda, or that of a file's bubbles without the column")
       .onlyWhere(wetnessIsPerBubble, kPerBubble)
       .build();
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "coupling/bubble_table.h"
+#include "coupling/first_bubbles.h"
 #include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
@@ -41,24 +41,10 @@ struct Box {
   std::string words() const { return "the domain from " + text(lower) + " to " + text(upper) + " m"; }
 };
 
-/// Calls visit(bubble, place) for every bubble of the scene; `place` says where it stands, for messages.
-template <typename Visit>
-void forEachBubble(const Scene& scene, const Visit& visit) {
-  for (std::size_t item = 0; item < scene.bubbles.size(); ++item)
-    checkItem("bubbles", item, [&] {
-      const BubblesSpec& spec = scene.bubbles[item];
-      if (spec.file.empty()) return visit(spec.bubble, [&] { return "bubbles " + std::to_string(item); });
-      const BubbleTable table = readBubbleTable(spec.file);
-      for (std::size_t row = 0; row < table.size(); ++row)
-        visit(foam::NewBubble{table.position[row], table.velocity[row], table.radius[row],
-                              foam::BubbleClass::liquid, spec.bubble.wetness},
-              [&] { return table.placeOf(spec.file, row); });
-    });
-}
-
 void checkBubbles(const Scene& scene, const Box& domain, const SignedDistance& psi) {
   const double widest = (domain.upper - domain.lower).minCoeff();
-  forEachBubble(scene, [&](const foam::NewBubble& bubble, const auto& place) {
+  const FirstBubbles all(scene);
+  all.forEach([&](const foam::NewBubble& bubble, const auto& place) {
     if (!domain.holds(bubble.position))
       throw SceneError(place() + ": position " + text(bubble.position) + " lies outside " + domain.words() +
                        "; move the bubble or the domain");
@@ -114,12 +100,6 @@ void checkSource(const BubbleSourceSpec& source, const Box& domain, const Signed
 }
 
 }  // namespace
-
-foam::BubbleStore initialBubbles(const Scene& scene) {
-  foam::BubbleStore bubbles;
-  forEachBubble(scene, [&](const foam::NewBubble& bubble, const auto&) { bubbles.add(bubble); });
-  return bubbles;
-}
 
 foam::FoamParams foamParamsOf(const Scene& scene) {
   foam::FoamParams params = scene.foam;

@@ -4,14 +4,9 @@
 
 #include "coupling/errors.h"
 #include "coupling/scene.h"
-#include "foam/bubble_store.h"
 #include "foam/nucleation.h"
 
 namespace spume::coupling {
-
-/// The bubbles a scene starts with, numbered from 0 in the order of the scene and its files. Reads the files;
-/// throws FileError or SceneError as readBubbleTable does.
-foam::BubbleStore initialBubbles(const Scene& scene);
 
 /// The parameters of the foam with the surface of every solid of the scene.
 foam::FoamParams foamParamsOf(const Scene& scene);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "coupling/finding_list.h"
+#include "coupling/first_bubbles.h"
 #include "coupling/foam_objects.h"
 #include "coupling/object_label.h"
 #include "coupling/room_lint.h"
@@ -76,7 +77,9 @@ class Linter {
   void lintBubbles() {
     const EntrainmentSpec& births = scene_.coupling.entrainment;
     double largest = births.enabled ? births.maxRadius : 0;
-    const foam::BubbleStore first = initialBubbles(scene_);
+    const FirstBubbles written(scene_);
+    written.lint(findings_);
+    const foam::BubbleStore first = written.store();
     for (const double radius : first.radius) largest = std::max(largest, radius);
     lintCrowd(first);
     for (const BubbleSourceSpec& source : scene_.bubbleSources)

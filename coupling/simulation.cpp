@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "coupling/first_bubbles.h"
 #include "coupling/foam_objects.h"
 #include "coupling/liquid_part.h"
 #include "coupling/momentum_exchange.h"

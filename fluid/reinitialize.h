@@ -7,16 +7,9 @@
 #include "fluid/grid_spec.h"
 #include "fluid/layer_list.h"
 #include "fluid/solid_boundary.h"
+#include "fluid/surface_seed.h"
 
 namespace spume::fluid {
-
-/// A closest point: lengths in cells, positions in index units.
-struct SurfaceSeed {
-  float x, y, z;                 ///< on the surface
-  float nx, ny, nz;              ///< unit normal, towards phi > 0
-  float xx, yy, zz, xy, yz, zx;  ///< second derivatives of the distance [1/cells]
-  float reach;                   ///< radius of the patch the normal and curvature speak for [cells]
-};
 
 /// Makes phi a signed distance again within kLevelSetBand cells without moving the surface; beyond, +-band
 /// with the sign kept. Every cell beside the surface finds its closest point on the cubic interpolant of phi
@@ -32,8 +25,6 @@ class Reinitializer {
   void apply(DenseField<float>& phi, const SolidBoundary* solids = nullptr);
 
  private:
-  SurfaceSeed findSeed(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
-  SurfaceSeed findSeedBesideWall(const DenseField<float>& phi, const Eigen::Vector3i& cell) const;
   void markBesideWalls(const DenseField<float>& phi);
   void markInterface(const DenseField<float>& phi, const SolidBoundary* solids);
   void plantSeeds(const DenseField<float>& phi);

@@ -120,10 +120,6 @@ inline ValueAndGradient interpolateGradient(const FieldView& f, const CellBase& 
 inline ValueAndGradient sampleCentredGradient(const FieldView& f, float x, float y, float z) {
   return interpolateGradient(f, cellBase(f, x - 0.5f, y - 0.5f, z - 0.5f));
 }
-/// The same at a position inside the grid.
-inline ValueAndGradient sampleInnerCentredGradient(const FieldView& f, float x, float y, float z) {
-  return interpolateGradient(f, innerCellBase(f, x - 0.5f, y - 0.5f, z - 0.5f));
-}
 
 /// View of a staggered velocity.
 struct MacView {

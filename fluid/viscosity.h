@@ -33,7 +33,6 @@ class Viscosity {
  private:
   using Vector = MacField<double>;
   void weigh(const DenseField<float>& phi, const SolidBoundary& boundary);
-  void weighFaces(const SolidBoundary& boundary);
   float edgeWeight(const SolidBoundary& boundary, int a, int b, const Eigen::Vector3i& c) const;
   bool isDry(int axis, const Eigen::Vector3i& face) const;
   bool isHeld(const SolidBoundary& boundary, int axis, const Eigen::Vector3i& face) const;

@@ -53,6 +53,13 @@ void checkPaths(const MeasureOptions& options) {
   }
 }
 
+/// Curved films are relaxed from the cells of the local engine.
+void checkEngine(const MeasureOptions& options) {
+  if (!options.films.empty() && options.engine != "local")
+    throw coupling::SceneError("--films needs --engine local: leave --engine " + options.engine +
+                               " out, or write the films by a call of their own");
+}
+
 Report reportOf(const coupling::FoamTotals& totals, double geometrySeconds, double seconds) {
   Report report;
   report.add("bubbles", static_cast<double>(totals.bubbles));
@@ -87,7 +94,10 @@ foam::BubbleStore storeOf(const coupling::BubbleTable& table) {
 int measure(const MeasureOptions& options) {
   const Clock::time_point start = Clock::now();
   checkPaths(options);
+  checkEngine(options);
   const coupling::BubbleTable bubbles = coupling::readBubbleTable(options.bubbles);
+  if (const std::string words = coupling::wordsOnUnread(options.bubbles, bubbles); !words.empty())
+    std::cerr << "warning: " << words << '\n';
   const Clock::time_point read = Clock::now();
   const foam::FoamTopology topology = topologyOf(bubbles, options.engine);
   const double geometrySeconds = secondsSince(read);
@@ -117,7 +127,7 @@ void addMeasure(CLI::App& program, Action& action) {
       ->type_name("CSV");
   verb->add_option("--films", options->films,
                    "the films as a mesh, curved as soap films are: faces with id_a,id_b,curvature; half a "
-                   "second per 1000 balls")
+                   "second per 1000 balls; with --engine local")
       ->type_name("PLY");
   verb->add_option("--engine", options->engine,
                    "local: from overlapping neighbours; global: the triangulation of all balls, a slow check")

@@ -38,7 +38,6 @@ class BubbleCells {
   int endFace(int bubble) const { return faceStart_[bubble + 1]; }
   int neighbour(int face) const { return neighbour_[face]; }
   const Vec3& planeNormal(int face) const { return plane_[face].normal; }
-  float planeHeight(int face) const { return plane_[face].height; }
 
   /// The stretch of a ray inside a cell [m], and the faces at its ends.
   struct Stretch {

@@ -5,6 +5,7 @@
 
 #include "apps/reproduce/foam_bench.h"
 #include "apps/reproduce/foam_studies.h"
+#include "apps/reproduce/settling.h"
 #include "foam/forces/strong_spring.h"
 #include "foam/power_cells.h"
 
@@ -16,57 +17,9 @@ using Eigen::Vector3d;
 constexpr foam::Preset kPresets[] = {foam::Preset::paper, foam::Preset::physical};
 std::string nameOf(foam::Preset preset) { return preset == foam::Preset::paper ? "paper" : "physical"; }
 
-/// Bubbles let rise in a square box.
-struct Crowd {
-  int count;
-  double smallest, largest;  ///< radii [m]
-  double edge, depth;        ///< of the box [m]
-  bool apart;                ///< none touches another at the start
-};
-
-/// A crowd in still liquid, and what it does after 8 s.
-struct Settling {
-  foam::BubbleStore bubbles;
-  foam::FoamStepReport report;
-
-  Settling(foam::FoamParams params, const Crowd& crowd, double dt) {
-    constexpr double kTime = 8;
-    const double edge = crowd.edge;
-    params.bursting = false;
-    foam::StillPoolParams box;
-    box.lower = {-edge / 2, -crowd.depth, -edge / 2}, box.upper = {edge / 2, edge, edge / 2};
-    box.closed = {true, true, true, false, true, true};
-    for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(crowd.count); ++i) {
-      foam::CounterRandom random(5, i, 2);
-      const double r = crowd.smallest + (crowd.largest - crowd.smallest) * random.uniform();
-      Vector3d place = drawPlace(crowd, r, random);
-      while (crowd.apart && touchesAny(place, r)) place = drawPlace(crowd, r, random);
-      bubbles.add({.position = place, .radius = r});
-    }
-    const foam::StillPool pool(box);
-    foam::FoamSolver solver(params);
-    for (double t = 0; t < kTime; t += dt) report = solver.step(bubbles, pool, dt);
-  }
-
- private:
-  static Vector3d drawPlace(const Crowd& crowd, double radius, foam::CounterRandom& random) {
-    const Vector3d share = randomVector(random);
-    const double room = crowd.edge - 2 * radius;
-    return {(share.x() - 0.5) * room, -crowd.depth * (0.05 + 0.85 * share.y()), (share.z() - 0.5) * room};
-  }
-  bool touchesAny(const Vector3d& place, double radius) const {
-    for (std::size_t k = 0; k < bubbles.size(); ++k)
-      if ((bubbles.position[k] - place).norm() < bubbles.radius[k] + radius) return true;
-    return false;
-  }
-};
-
-constexpr Crowd kRaft{300, 0.375e-3, 1.25e-3, 30e-3, 30e-3, false};
-constexpr Crowd kPile{300, 1.25e-3, 5e-3, 50e-3, 50e-3, false};
 constexpr Crowd kLargeRaft{1000, 0.375e-3, 1.25e-3, 45e-3, 90e-3, true};
 constexpr Crowd kLargePile{1000, 1.25e-3, 5e-3, 75e-3, 300e-3, true};
-constexpr double kSmallRest = 1e-4, kLargeRest = 1e-3;  ///< of rafts and of piles [m/s]
-constexpr double kRestSteps[] = {0.005, 0.02};          ///< [s]
+constexpr double kRestSteps[] = {0.005, 0.02};  ///< [s]
 
 std::string nameOf(const Crowd& crowd, double dt) {
   const std::string radii = crowd.smallest < 1e-3 ? "0.375-1.25" : "1.25-5";
@@ -76,13 +29,6 @@ std::string nameOf(const Crowd& crowd, double dt) {
 ResultRow restRow(const Settling& settled, const Crowd& crowd, double dt, const std::string& of) {
   ResultRow row{.resolution = nameOf(crowd, dt), .quantity = of + ": rms speed after 8 s"};
   return aimAtMost(row, rmsSpeed(settled.bubbles), crowd.smallest < 1e-3 ? kSmallRest : kLargeRest, "m/s");
-}
-
-/// The preset without the attraction that belongs to it.
-foam::FoamParams withoutAttraction(foam::Preset preset) {
-  foam::FoamParams params = foam::makePreset(preset);
-  params.attractionLaw = foam::AttractionLaw::none;
-  return params;
 }
 
 /// S22 and the aims of rest: rafts, with and without attraction, and piles.
@@ -99,14 +45,6 @@ std::vector<ResultRow> rest(const StudyContext&) {
       rows.push_back(restRow(Settling(foam::makePreset(preset), kPile, dt), kPile, dt, name + ", pile"));
   }
   return rows;
-}
-
-/// Height of the centre of the gas above the water [m].
-double gasHeight(const foam::BubbleStore& bubbles) {
-  double gas = 0, moment = 0;
-  for (std::size_t i = 0; i < bubbles.size(); ++i)
-    gas += bubbles.gas[i], moment += bubbles.gas[i] * bubbles.position[i].y();
-  return moment / gas;
 }
 
 /// A thousand of them, and what else S22 asks of a pile: its height at both steps, and its volumes.

@@ -47,8 +47,4 @@ inline double surfaceAlong(const fluid::LiquidState& state, int axis, Eigen::Vec
   return edge;
 }
 
-inline std::string planeResolution(const fluid::GridSpec& grid) {
-  return std::to_string(grid.cells.x()) + " x " + std::to_string(grid.cells.y());
-}
-
 }  // namespace spume::apps

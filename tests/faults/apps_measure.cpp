@@ -38,6 +38,14 @@ TEST(MeasureFaults, NoFileReplacesAnother) {
   EXPECT_EQ(contentsOf(input), kSound);
 }
 
+TEST(MeasureFaults, FilmsOfTheGlobalEngineAreRefusedWithARemedy) {
+  const Scratch scratch;
+  const std::string input = scratch.write("a.csv", kSound);
+  expectRefused(runSpume("measure " + input + " --engine global --films " + (scratch / "f.ply")), 2,
+                "--films needs --engine local: leave --engine global out");
+  EXPECT_EQ(scratch.count(), 1u);
+}
+
 TEST(MeasureFaults, WrongUseIsRefused) {
   expectRefused(runSpume("measure"), 2, "bubbles");
   expectRefused(runSpume("measure a.csv --engine fast"), 2, "local");

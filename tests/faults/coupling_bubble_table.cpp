@@ -76,6 +76,11 @@ const BadFile kBadCsv[] = {
     {"ColumnTwice", "id,x,y,z,r,x\n", {"b.csv:1:12: ", "column x", "twice"}},
     {"HalfAVelocity", "id,x,y,z,r,vx,vy\n", {"b.csv:1:1: ", "column vz is missing"}},
     {"InfiniteVelocity", "id,x,y,z,r,vx,vy,vz\n1,0,0,0,1,0,0,inf\n", {"b.csv:2:15: ", "vz = inf", "[m/s]"}},
+    {"WetnessAboveOne",
+     "id,x,y,z,r,wetness\n8,0,0,0,1,1\n9,0,0,0,1,1.01\n",
+     {"b.csv:3:11: ", "wetness = 1.01 of bubble 9", "0 (dry) to 1 (wet)"}},
+    {"WetnessBelowZero", "wetness,id,x,y,z,r\n-0.5,8,0,0,0,1\n", {"b.csv:2:1: ", "wetness = -0.5"}},
+    {"NotANumberWetness", "wetness,id,x,y,z,r\nnan,8,0,0,0,1\n", {"b.csv:2:1: ", "wetness = nan"}},
 };
 INSTANTIATE_TEST_SUITE_P(Csv, BadBubbles, testing::ValuesIn(kBadCsv),
                          [](const auto& given) { return given.param.name; });
@@ -105,6 +110,9 @@ const BadFile kBadPly[] = {
     {"AsciiDuplicateId",
      kAscii + kXyz + "property int id\n" + kEnd + "0 0 0 5 1\n0 0 0 5 1\n",
      {"b.ply:11:7: id 5", "b.ply:10:7;"}},
+    {"AsciiWetness",
+     kAscii + kXyz + "property float wetness\n" + kEnd + "0 0 0 1 1\n0 0 0 2 1\n",
+     {"b.ply:11:7: wetness = 2 of bubble 1", "0 (dry) to 1 (wet)"}},
     {"BinaryCutOff", kBinary + kXyz + kEnd + std::string(31, '\0'), {"cut off", "2 vertices", "1"}},
     {"BinaryRadius", kBinary + kXyz + kEnd + std::string(32, '\0'), {"b.ply: vertex 0: ", "r = 0"}},
     {"AbsurdCount",

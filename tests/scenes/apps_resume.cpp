@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include "coupling/bubble_table.h"
 #include "tests/support/apps_program.h"
 #include "tests/support/pouring_scene.h"
 
@@ -57,6 +58,50 @@ TEST(Resume, GoesOnFromTheMiddleOfAFrame) {
       << stopped.output;
   ASSERT_EQ(runSpume("run " + scene + " --frames 6 -o " + b).code, 0);
   expectSameRun(a, b);
+}
+
+/// Two bubbles at rest in still water, and a source.
+const std::string kListed = R"([domain]
+size = [0.08, 0.08, 0.08]
+resolution = 16
+[time]
+frames = 2
+[still_pool]
+enabled = true
+level = 0.06
+[coupling.entrainment]
+enabled = false
+[foam]
+wetness_law = "per_bubble"
+bursting = false
+[[bubbles]]
+file = "balls.csv"
+[[bubble_source]]
+shape = "sphere"
+centre = [0.04, 0.02, 0.04]
+radius = 0.01
+rate = 48
+radius_law = "uniform"
+min_radius = 1e-3
+max_radius = 1.5e-3
+[output]
+preview = false
+)";
+
+TEST(Resume, KeepsIdsAndWetnessOfAFileAndNumbersBirthsOn) {
+  const Scratch scratch;
+  const std::string scene = scratch.write("listed.toml", kListed), a = scratch / "a", b = scratch / "b";
+  scratch.write("balls.csv",
+                "id,x,y,z,r,wetness\n70,0.02,0.04,0.04,0.002,0.25\n50,0.06,0.04,0.04,0.002,0.875\n");
+  ASSERT_EQ(runSpume("run " + scene + " -o " + a).code, 0);
+  ASSERT_EQ(runSpume("run " + scene + " --frames 1 -o " + b).code, 0);
+  ASSERT_EQ(runSpume("run " + scene + " -o " + b).code, 0);
+  const std::string last = "/bubbles/bubbles.0002.ply";
+  EXPECT_EQ(contentsOf(a + last), contentsOf(b + last));
+  const coupling::BubbleTable bubbles = coupling::readBubbleTable(b + last);
+  ASSERT_EQ(bubbles.id, (std::vector<std::uint64_t>{50, 70, 71, 72, 73}));  // 48 a second for 1/15 s
+  EXPECT_EQ(bubbles.wetness[0], 0.875);
+  EXPECT_EQ(bubbles.wetness[1], 0.25);
 }
 
 TEST(Resume, AnotherSceneIsRefusedAndTheRunKept) {

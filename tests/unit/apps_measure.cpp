@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <sstream>
 
 #include "tests/support/measured_foam.h"
 
@@ -116,9 +117,36 @@ TEST(Measure, TotalsAreThoseOfTheUnion) {
   const std::string input = scratch.write("pair.csv", "id,x,y,z,r\n0,0,0,0,1\n1,1,0,0,1\n");
   const Outcome outcome = runSpume("measure " + input);
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
-  for (const char* part :
-       {"bubbles", "hidden", "contacts", "7.06858347 m^3", "18.8495559 m^2", "2.35619449 m^2", "seconds"})
+  for (const char* part : {"bubbles", "hidden", "contacts", "7.0685834", "18.849555", "2.3561944", "seconds"})
     EXPECT_NE(outcome.output.find(part), std::string::npos) << part << " is not in:\n" << outcome.output;
+}
+
+/// The number that a JSON object gives a key.
+double valueOf(const std::string& report, const std::string& key) {
+  return std::stod(report.substr(report.find(':', report.find('"' + key + '"')) + 1));
+}
+
+TEST(Measure, TotalsOfTheReportAreExact) {
+  const Scratch scratch;
+  const std::string input = scratch.write("ball.csv", "id,x,y,z,r\n0,0,0,0,0.7\n"), cells = scratch / "c.csv";
+  const Outcome outcome = runSpume("measure " + input + " --json -o " + cells);
+  const std::string row = contentsOf(cells);  // of the one bubble, whose sums are the totals
+  std::istringstream fields(row.substr(row.find("\n0,") + 3));
+  for (const char* key : {"volume", "free_area"}) {
+    std::string field;
+    std::getline(fields, field, ',');
+    EXPECT_EQ(valueOf(outcome.output, key), std::stod(field)) << outcome.output;
+  }
+  const std::string shown = runSpume("measure " + input).output;
+  EXPECT_NE(shown.find(row.substr(row.find("\n0,") + 3, 8)), std::string::npos) << shown;
+}
+
+TEST(Measure, WarnsOfColumnsThatItDoesNotRead) {
+  const Scratch scratch;
+  const std::string input = scratch.write("one.csv", "id,x,y,z,r,lambda\n0,0,0,0,1,0.5\n");
+  const Outcome outcome = runSpume("measure " + input);
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.errors.find("warning: " + input + ": column 'lambda' is not read"), std::string::npos);
 }
 
 TEST(Measure, ReadsPlyLikeCsv) {

@@ -21,6 +21,7 @@ void expectSame(const BubbleTable& a, const BubbleTable& b) {
   EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.radius, b.radius);
   EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(a.wetness, b.wetness);
 }
 
 TEST(BubbleTable, CsvRowsKeepTheirOrder) {
@@ -50,6 +51,26 @@ TEST(BubbleTable, FormOfTheCsvDoesNotMatter) {
 TEST(BubbleTable, CsvVelocitiesAreRead) {
   const BubbleTable bubbles = parseBubbleCsv("b.csv", "vz,vy,vx,id,x,y,z,r\n3,2,1,0,0,0,0,1\n");
   EXPECT_EQ(bubbles.velocity, (std::vector<Vector3d>{{1, 2, 3}}));
+}
+
+TEST(BubbleTable, WetnessIsReadWhereItIsGiven) {
+  EXPECT_TRUE(parseBubbleCsv("b.csv", kPlain).wetness.empty());
+  EXPECT_EQ(parseBubbleCsv("b.csv", "id,x,wetness,y,z,r\n0,0,0.25,0,0,1\n1,0,1,0,0,1\n").wetness,
+            (std::vector<double>{.25, 1}));
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float wetness\nproperty float radius\nend_header\n";
+  EXPECT_EQ(parseBubblePly("b.ply", head + "0 0 0 0.25 1\n0 0 0 1 1\n").wetness,
+            (std::vector<double>{.25, 1}));
+}
+
+TEST(BubbleTable, ColumnsThatAreNotReadAreNamed) {
+  EXPECT_EQ(wordsOnUnread("b.csv", parseBubbleCsv("b.csv", kPlain)), "");
+  EXPECT_EQ(wordsOnUnread("b.csv", parseBubbleCsv("b.csv", "id,x,lambda,y,z,r,\n0,0,0.5,0,0,1,\n")),
+            "b.csv: column 'lambda' is not read; those that are: id, x, y, z, r, vx, vy, vz, wetness");
+  EXPECT_EQ(wordsOnUnread("b.csv", parseBubbleCsv("b.csv", "age,id,x,y,z,r,type\n1,0,0,0,0,1,2\n"))
+                .rfind("b.csv: columns 'age', 'type' are not read;", 0),
+            0u);
 }
 
 TEST(BubbleTable, CsvNumbersAreExact) {
@@ -124,13 +145,16 @@ TEST(BubbleTable, CachesOfARunReadBack) {
   bubbles.add({{.5, .25, -.125}, {1, 2, 3}, .0625});
   bubbles.add({{1.5, 0, 2}, {0, -1, 0}, .5});
   bubbles.id = {5, 8};
+  bubbles.wetness = {.25, 1};
   const std::string base = testing::TempDir() + "bubble_table_" + std::to_string(getpid());
   writeBubblesVdb(base + ".vdb", bubbles, {}, 1);
   writeBubblesPly(base + ".ply", bubbles, {});
   for (const std::string ending : {".vdb", ".ply"}) {
     SCOPED_TRACE(ending);
-    expectSame(readBubbleTable(base + ending),
-               {bubbles.id, bubbles.position, {.0625, .5}, bubbles.velocity, {}});
+    BubbleTable same;
+    same.id = bubbles.id, same.position = bubbles.position, same.radius = {.0625, .5};
+    same.velocity = bubbles.velocity, same.wetness = bubbles.wetness;
+    expectSame(readBubbleTable(base + ending), same);
     std::remove((base + ending).c_str());
   }
 }

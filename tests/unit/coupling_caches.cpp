@@ -37,6 +37,7 @@ foam::BubbleStore someBubbles(int count) {
                  static_cast<foam::BubbleClass>(n % 3)});
     bubbles.age.back() = unit(random);
     bubbles.wetness.back() = unit(random);
+    bubbles.hidden.back() = n % 7 == 0, bubbles.clamped.back() = n % 3 == 0;
   }
   std::vector<std::uint8_t> gone(count, 0);  // so that ids have gaps
   for (int n = 0; n < count; n += 5) gone[n] = 1;
@@ -47,6 +48,8 @@ foam::BubbleStore someBubbles(int count) {
 void expectSameBubbles(const foam::BubbleStore& read, const foam::BubbleStore& written, double placeError) {
   ASSERT_EQ(read.id, written.id);
   EXPECT_EQ(read.type, written.type);
+  EXPECT_EQ(read.hidden, written.hidden);
+  EXPECT_EQ(read.clamped, written.clamped);
   for (std::size_t n = 0; n < read.size(); ++n) {
     EXPECT_LE((read.position[n] - written.position[n]).cwiseAbs().maxCoeff(), placeError);
     EXPECT_EQ(read.velocity[n].cast<float>(), written.velocity[n].cast<float>());
@@ -94,6 +97,34 @@ TEST(BubbleCache, NoBubblesMakeFilesToo) {
   EXPECT_EQ(readBubblesPly(ply).bubbles.size(), 0u);
   std::remove(vdb.c_str());
   std::remove(ply.c_str());
+}
+
+/// The same file without its last property, as earlier versions wrote it.
+TEST(BubbleCache, PlyWithoutFlagsIsReadAndNoneIsSet) {
+  foam::BubbleStore bubbles = someBubbles(3);
+  const std::string path = fileIn("older.ply"), property = "property int flags\n", end = "end_header\n";
+  writeBubblesPly(path, bubbles, kStamp);
+  std::string bytes = readFile(path);
+  bytes.erase(bytes.find(property), property.size());
+  const std::size_t body = bytes.find(end) + end.size(), record = (bytes.size() - body) / bubbles.size();
+  for (std::size_t n = bubbles.size(); n-- > 0;) bytes.erase(body + (n + 1) * record - 4, 4);
+  replaceFile(path, bytes);
+  bubbles.hidden.assign(bubbles.size(), 0), bubbles.clamped.assign(bubbles.size(), 0);
+  expectSameBubbles(readBubblesPly(path).bubbles, bubbles, 0.16 * 6e-8);
+  bytes.replace(bytes.find("property int type"), 17, "property int kind");
+  replaceFile(path, bytes);
+  EXPECT_THROW(readBubblesPly(path), SceneError);
+  std::remove(path.c_str());
+}
+
+TEST(BubbleCache, UnknownFlagsAreRefused) {
+  const std::string path = fileIn("flags.ply");
+  writeBubblesPly(path, someBubbles(3), kStamp);
+  std::string bytes = readFile(path);
+  bytes[bytes.size() - 4] = 4;
+  replaceFile(path, bytes);
+  EXPECT_THROW(readBubblesPly(path), SceneError);
+  std::remove(path.c_str());
 }
 
 TEST(BubbleCache, CutOffPlyIsRefusedWithItsPath) {

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "coupling/foam_objects.h"
+#include "coupling/first_bubbles.h"
 #include "coupling/scene_builder.h"
 #include "coupling/scene_toml.h"
 

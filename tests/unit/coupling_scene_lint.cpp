@@ -6,6 +6,7 @@
 #include "coupling/scene_lint.h"
 #include "coupling/scene_toml.h"
 #include "coupling/scene_volumes.h"
+#include "coupling/unused_keys.h"
 #include "tests/support/coupling_shapes.h"
 
 namespace spume::coupling {
@@ -22,6 +23,12 @@ bool mentions(const std::vector<Finding>& findings, const std::string& object, c
 std::vector<Finding> lintRoomOf(const Scene& scene) {
   FindingList findings;
   lintRoom(scene, findings);
+  return findings.take();
+}
+
+std::vector<Finding> notesOn(const Scene& scene) {
+  FindingList findings;
+  noteUnusedKeys(scene, findings);
   return findings.take();
 }
 
@@ -113,6 +120,61 @@ TEST(SceneLint, KeysThatDoNothingAreNoted) {
   EXPECT_FALSE(mentions(lintScene(scene), "foam.drag_coefficient", ""));
   scene.stillPool.level = 0.05;
   EXPECT_TRUE(mentions(lintScene(scene), "still_pool.level", "still_pool.enabled"));
+}
+
+/// A key, a change of the scene that sets it in vain, the key that is to blame, and one that makes it count.
+struct VainKey {
+  std::string key;
+  void (*set)(Scene&);
+  std::string blames;
+  void (*use)(Scene&);
+};
+
+TEST(SceneLint, EveryKeyOfTheFoamThatAnotherSwitchesOffIsNoted) {
+  using foam::AttractionLaw;
+  const VainKey kKeys[] = {
+      {"foam.spring_surface_tension_factor",
+       [](Scene& s) { s.foam.springSurfaceTensionFactor = 0.6, s.foam.springFromSurfaceTension = false; },
+       "foam.spring_from_surface_tension", [](Scene& s) { s.foam.springFromSurfaceTension = true; }},
+      {"foam.gas_viscosity",
+       [](Scene& s) { s.foam.gasViscosity = 1e-5, s.foam.airDragLaw = foam::AirDragLaw::coefficient; },
+       "foam.air_drag_law", [](Scene& s) { s.foam.airDragLaw = foam::AirDragLaw::stokes; }},
+      {"foam.weak_pairs", [](Scene& s) { s.foam.weakPairs = false; }, "foam.attraction_law",
+       [](Scene& s) { s.foam.attractionLaw = AttractionLaw::capillary; }},
+      {"foam.burst_reference_radius",
+       [](Scene& s) { s.foam.burstReferenceRadius = 2e-3, s.foam.bursting = false; }, "foam.bursting",
+       [](Scene& s) { s.foam.bursting = true; }},
+      {"foam.burst_shape", [](Scene& s) { s.foam.burstShape = 1, s.foam.bursting = false; }, "foam.bursting",
+       [](Scene& s) { s.foam.bursting = true; }},
+      {"foam.burst_wall_factor", [](Scene& s) { s.foam.burstWallFactor = 0.5, s.foam.bursting = false; },
+       "foam.bursting", [](Scene& s) { s.foam.bursting = true; }},
+      {"foam.burst_wall_distance", [](Scene& s) { s.foam.burstWallDistance = 0.02, s.foam.bursting = true; },
+       "foam.burst_wall_factor", [](Scene& s) { s.foam.burstWallFactor = 0.5; }},
+      {"foam.walls.adhesion", [](Scene& s) { s.foam.walls.adhesion = 1; }, "foam.walls.detach_radius",
+       [](Scene& s) { s.foam.walls.detachRadius = 1e-3; }},
+      {"foam.walls.detach_radius",
+       [](Scene& s) { s.foam.walls.detachRadius = 1e-3, s.foam.walls.adhesion = 0; }, "foam.walls.adhesion",
+       [](Scene& s) { s.foam.walls.adhesion = 1; }},
+      {"foam.walls.attraction", [](Scene& s) { s.foam.walls.attraction = 1e-7; }, "foam.attraction_law",
+       [](Scene& s) { s.foam.attractionLaw = AttractionLaw::coefficient; }},
+      {"foam.walls.contact_angle", [](Scene& s) { s.foam.walls.contactAngle = 30; }, "foam.attraction_law",
+       [](Scene& s) { s.foam.attractionLaw = AttractionLaw::capillary; }},
+      {"solid.0.adhesion", [](Scene& s) { s.solids[0].surface.adhesion = 1; }, "solid.0.detach_radius",
+       [](Scene& s) { s.solids[0].surface.detachRadius = 1e-3; }},
+      {"solid.0.contact_angle", [](Scene& s) { s.solids[0].surface.contactAngle = 30; },
+       "foam.attraction_law", [](Scene& s) { s.foam.attractionLaw = AttractionLaw::capillary; }}};
+  Scene plain = pouring();
+  plain.foam.attractionLaw = AttractionLaw::none;
+  plain.foam.walls = {};
+  plain.solids = {test::solidOf("block", test::boxShape({0.02, 0.02, 0.02}, {0.05, 0.05, 0.05}))};
+  for (const VainKey& vain : kKeys) {
+    Scene scene = plain;
+    EXPECT_FALSE(mentions(notesOn(scene), vain.key, "")) << vain.key;
+    vain.set(scene);
+    EXPECT_TRUE(mentions(notesOn(scene), vain.key, vain.blames)) << vain.key;
+    vain.use(scene);
+    EXPECT_FALSE(mentions(notesOn(scene), vain.key, "")) << vain.key;
+  }
 }
 
 TEST(SceneLint, CrowdedBubblesAndManySitesAreNamed) {

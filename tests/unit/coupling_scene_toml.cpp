@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "coupling/first_bubbles.h"
 #include "coupling/foam_objects.h"
 #include "coupling/nearest_key.h"
 #include "coupling/scene_keys.h"
@@ -119,9 +120,10 @@ TEST(SceneToml, BubblesOfAFileComeWithTheirVelocities) {
   EXPECT_EQ(scene.bubbles.at(0).file, path);
   const foam::BubbleStore bubbles = initialBubbles(scene);
   ASSERT_EQ(bubbles.size(), 2u);
-  EXPECT_EQ(bubbles.position[0], Eigen::Vector3d(0.1, 0.2, 0.3));
-  EXPECT_EQ(bubbles.velocity[0], Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(bubbles.radius[1], 2e-3);
+  EXPECT_EQ(bubbles.id, (std::vector<std::uint64_t>{3, 7}));
+  EXPECT_EQ(bubbles.position[1], Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(bubbles.velocity[1], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(bubbles.radius[0], 2e-3);
   EXPECT_EQ(writeScene(readText(writeScene(scene))), writeScene(scene));
   std::remove(path.c_str());
 }

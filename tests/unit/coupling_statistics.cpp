@@ -35,6 +35,7 @@ class Statistics : public testing::Test {
     report.liquid.stages = {{"advect", 0.25}, {"solve pressure", 0.5}};
     report.foam.stages = {{"geometry", 0.125}};
     report.foam.bubbles = static_cast<std::size_t>(10 * number);
+    report.foam.hidden = static_cast<std::size_t>(number), report.foam.clamped = 3;
     report.births = 2;
     report.events.push_back({.kind = Event::Kind::birth, .time = report.time, .id = 100u + number});
     return report;
@@ -86,6 +87,8 @@ TEST_F(Statistics, FramesSumUpTheirSteps) {
   EXPECT_EQ(cell("steps"), "2");
   EXPECT_EQ(cell("births"), "4");
   EXPECT_EQ(cell("bubbles"), "20");
+  EXPECT_EQ(cell("hidden"), "2");
+  EXPECT_EQ(cell("clamped"), "3");
 }
 
 TEST_F(Statistics, ResumeCutsBackAndContinuesAsIfNeverStopped) {

@@ -3,38 +3,15 @@
 #include <numeric>
 #include <random>
 
-#include "fluid/impact_speed.h"
 #include "fluid/marker_correction.h"
-#include "fluid/marker_escape.h"
 #include "fluid/marker_particles.h"
-#include "fluid/marker_shares.h"
 #include "tests/support/fluid_fields.h"
+#include "tests/support/marker_pool.h"
 
 namespace spume::fluid {
 namespace {
 
 using namespace test;
-
-/// A domain of free space with a level set and markers on both sides.
-struct Pool {
-  GridSpec grid;
-  FluidParams params;
-  DomainWalls walls;
-  SolidBoundary solids;
-  DenseField<float> phi;
-  MarkerSet positive, negative;
-
-  Pool(int n, const ScalarFunction& phi0, const DomainWalls& w = closedWalls())
-      : grid(unitCube(n)), walls(w), solids(buildSolidBoundary(grid, w, {}, 0)), phi(levelSet(grid, phi0)) {}
-
-  MarkerScene scene() const { return {grid, params, walls, solids}; }
-  void seed(std::int64_t subStep = 0) {
-    MarkerSeeder(grid).reseed(scene(), phi, subStep, positive, negative);
-  }
-};
-
-double flat(const Eigen::Vector3d& x) { return x.y() - 0.5; }
-double sphere(const Eigen::Vector3d& x) { return (x - Eigen::Vector3d(0.5, 0.5, 0.5)).norm() - 0.25; }
 
 TEST(MarkerSeeder, FillsTheBandOnBothSides) {
   Pool pool(24, flat);
@@ -205,155 +182,6 @@ TEST(AdjustRadii, GivesAnEscapedMarkerTheSmallestRadius) {
   EXPECT_EQ(pool.negative.escaped[0], 1);
   EXPECT_NEAR(pool.negative.radius[1], 0.3f, 1e-5);
   EXPECT_EQ(pool.negative.escaped[1], 0);
-}
-
-TEST(MarkerEscape, SharesAddUpToTheAirOfTheSeededCells) {
-  Pool pool(24, sphere);
-  pool.seed();
-  MarkerEscape escape(pool.grid);
-  const double air = escape.refreshGas(pool.scene(), pool.phi, pool.positive);
-  const double shares = std::accumulate(pool.positive.gas.begin(), pool.positive.gas.end(), 0.0);
-  EXPECT_NEAR(shares / air, 1, 1e-5);  // float shares
-  // The air between the sphere and one 3 cells larger, up to the cells that the band cuts.
-  const double inner = std::pow(0.25, 3), outer = std::pow(0.25 + 3 * pool.grid.dx, 3);
-  EXPECT_NEAR(air / (4.18879 * (outer - inner)), 1, 0.1);
-}
-
-TEST(MarkerEscape, FreezesTheShareUnderTheSurface) {
-  Pool pool(16, flat);
-  pool.positive.append(8, 8.5f, 8, 0.5f);
-  MarkerEscape escape(pool.grid);
-  escape.refreshGas(pool.scene(), pool.phi, pool.positive);
-  const float share = pool.positive.gas[0];
-  EXPECT_NEAR(share, pool.grid.cellVolume(), 1e-4 * pool.grid.cellVolume());
-  pool.positive.y[0] = 7.5f;
-  escape.refreshGas(pool.scene(), pool.phi, pool.positive);
-  EXPECT_EQ(pool.positive.gas[0], share);
-}
-
-/// Liquid of the cells that hold markers, and what the markers say they stand for.
-double volumeOfShares(const MarkerSet& markers) {
-  return std::accumulate(markers.gas.begin(), markers.gas.end(), 0.0);
-}
-
-TEST(MarkerShares, OfLiquidAreKeptWherePhiIsInDoubt) {
-  Pool pool(24, flat);
-  pool.seed();
-  MarkerShares shares(pool.grid);
-  shares.refreshLiquid(pool.scene(), pool.phi, pool.positive, pool.negative);
-  const LargeVector<float> before = pool.negative.gas;
-  // The grid loses a quarter of a cell of liquid everywhere, and one marker of the air says that it is wrong.
-  pool.phi = levelSet(pool.grid, [&](const auto& x) { return flat(x) + 0.25 * pool.grid.dx; });
-  pool.positive.escaped[0] = 1;
-  const Eigen::Array3i lost(static_cast<int>(pool.positive.x[0]), static_cast<int>(pool.positive.y[0]),
-                            static_cast<int>(pool.positive.z[0]));
-  shares.refreshLiquid(pool.scene(), pool.phi, pool.positive, pool.negative);
-  int kept = 0, divided = 0;
-  for (std::size_t n = 0; n < before.size(); ++n) {
-    const Eigen::Array3i cell(static_cast<int>(pool.negative.x[n]), static_cast<int>(pool.negative.y[n]),
-                              static_cast<int>(pool.negative.z[n]));
-    if (cell.y() != 11) continue;  // the cells that hold the surface's liquid
-    const bool near = (cell - lost).abs().maxCoeff() <= 1;
-    (near ? kept : divided) += 1;
-    if (near)
-      EXPECT_EQ(pool.negative.gas[n], before[n]);
-    else
-      EXPECT_NEAR(pool.negative.gas[n] / before[n], 0.75, 1e-3);  // float phi
-  }
-  EXPECT_GT(kept, 0);
-  EXPECT_GT(divided, 0);
-}
-
-TEST(MarkerShares, OfLiquidAreTheSameOnAnyNumberOfThreads) {
-  const auto run = [](int threads) {
-    return onThreads(threads, [] {
-      Pool pool(24, sphere);
-      pool.seed();
-      for (std::size_t n = 0; n < pool.negative.size(); n += 100) pool.negative.escaped[n] = 1;
-      MarkerShares(pool.grid).refreshLiquid(pool.scene(), pool.phi, pool.positive, pool.negative);
-      return pool.negative;
-    });
-  };
-  const MarkerSet one = run(1), four = run(4);
-  EXPECT_EQ(one.gas, four.gas);
-}
-
-/// A marker that stands out by less than its radius has not escaped: its part of the cell must not be given
-/// to the others, or it counts twice once it has.
-TEST(MarkerShares, OfLiquidGoToAllThatHaveNotEscaped) {
-  Pool pool(16, flat);
-  pool.negative.append(8.5f, 7.5f, 8.5f, 0.1f);
-  pool.negative.append(8.5f, 7.9f, 8.5f, 0.1f);
-  pool.phi = levelSet(pool.grid, [&](const auto& x) { return flat(x) + 0.15 * pool.grid.dx; });  // 0.05 out
-  MarkerShares shares(pool.grid);
-  const double given = shares.refreshLiquid(pool.scene(), pool.phi, pool.positive, pool.negative);
-  EXPECT_NEAR(given / pool.grid.cellVolume(), 0.85, 1e-3);  // float phi
-  EXPECT_EQ(pool.negative.gas[0], pool.negative.gas[1]);
-  EXPECT_NEAR(volumeOfShares(pool.negative) / given, 1, 1e-6);  // float shares
-}
-
-TEST(MarkerSeeder, LeavesTheLiquidOfSurplusMarkersToTheirCell) {
-  Pool pool(16, flat);
-  const float volume = static_cast<float>(pool.grid.cellVolume());
-  for (int n = 0; n < 4 * pool.params.markersPerCell; ++n) {
-    pool.negative.append(8.5f, 7.2f, 8.5f, 0.3f);
-    pool.negative.gas.back() = volume;
-  }
-  const double before = volumeOfShares(pool.negative);
-  const std::size_t count = pool.negative.size();
-  pool.seed();
-  std::size_t left = 0;
-  for (std::size_t n = 0; n < pool.negative.size(); ++n) left += pool.negative.gas[n] > 0;
-  EXPECT_LT(left, count);
-  EXPECT_NEAR(volumeOfShares(pool.negative) / before, 1, 1e-6);  // float shares
-}
-
-/// Two streams side by side under a flat surface: a jet to the right of x = 1/2, a pool at rest to the left;
-/// above the surface the air blows at 10 m/s.
-Eigen::Vector3d jetIntoPool(const Eigen::Vector3d& x) {
-  if (x.y() > 0.5) return {10, 0, 0};
-  return {0, x.x() > 0.5 ? -1.6 : 0.0, 0};
-}
-
-TEST(ImpactSpeed, IsTheDifferenceOfTheStreamsWhereverInTheirLayer) {
-  for (const int cells : {16, 32}) {
-    Pool pool(cells, flat);
-    pool.params.impactReach = 0.2;
-    const MacVelocity streams = macField(pool.grid, jetIntoPool);
-    for (const double x : {0.44, 0.46, 0.56})
-      EXPECT_NEAR(impactSpeed(pool.scene(), pool.phi, streams, {x, 0.4, 0.5}), 1.6, 1e-6) << cells;
-    EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.25, 0.25, 0.5}), 0) << cells;  // pool alone
-    EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.8, 0.25, 0.5}), 0) << cells;   // jet alone
-    EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.5, 0.8, 0.5}), 0) << cells;    // air alone
-  }
-}
-
-TEST(ImpactSpeed, ReachesThreeCellsWhereTheGridIsCoarse) {
-  Pool pool(16, flat);
-  pool.params.impactReach = 1e-4;
-  const MacVelocity streams = macField(pool.grid, jetIntoPool);
-  EXPECT_NEAR(impactSpeed(pool.scene(), pool.phi, streams, {0.5, 0.3, 0.5}), 1.6, 1e-6);
-  EXPECT_EQ(impactSpeed(pool.scene(), pool.phi, streams, {0.5 - 4 * pool.grid.dx, 0.3, 0.5}), 0);
-}
-
-TEST(MarkerEscape, ReleasesMarkersBelowTheEscapeDepthOnly) {
-  Pool pool(16, flat);
-  pool.positive.append(8, 7.1f, 8, 0.5f);  // 0.9 cells deep
-  pool.positive.append(8, 6.9f, 8, 0.1f);  // 1.1 cells deep
-  pool.positive.append(8, 8.4f, 8, 0.4f);
-  pool.positive.gas = {1, 2, 3};
-  std::vector<EscapedMarker> escaped;
-  MarkerEscape escape(pool.grid);
-  const MacVelocity sink = macField(pool.grid, [](const auto&) { return Eigen::Vector3d(0, -1, 0); });
-  escape.releaseEscaped(pool.scene(), pool.phi, sink, pool.positive, escaped);
-  ASSERT_EQ(escaped.size(), 1u);
-  EXPECT_EQ(escaped[0].gas, 2);
-  EXPECT_EQ(escaped[0].speed, 0);  // all sinks together
-  EXPECT_NEAR(escaped[0].position.y(), 6.9 * pool.grid.dx, 1e-6);
-  EXPECT_NEAR(escaped[0].velocity.y(), -1, 1e-6);
-  ASSERT_EQ(pool.positive.size(), 2u);
-  EXPECT_EQ(pool.positive.escaped[0], 1);  // flagged, but not deep enough to go
-  EXPECT_EQ(pool.positive.escaped[1], 0);
 }
 
 }  // namespace
