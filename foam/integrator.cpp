@@ -24,12 +24,13 @@ constexpr double kFlatGradient = 1e-6;
 /// Rounds of finding out which bubbles press on a wall: each settles nearly all, and what is left waits for
 /// the next step.
 constexpr int kWallPasses = 8;
-/// Residual of the first round, and of each next one that is not the last: who presses on a wall shows long
-/// before the velocities have all their digits, but not after the few iterations that a tenth takes. Shorter
-/// steps (0.1) take a fifth more rounds for as many iterations, longer ones (0.01) more iterations.
+/// Residual at which contacts are looked at first, as a share of the first one, and each later one as a share
+/// of that: who presses on a wall shows long before the velocities have all their digits, but not after the
+/// few iterations that a tenth takes. Shorter steps (0.1) take a fifth more rounds for as many iterations,
+/// longer ones (0.02) more iterations.
 constexpr double kFirstAim = 0.01, kAimStep = 0.05;
-/// Share of the last round's aim by which the residuals of the others may be off: it ends with a true one,
-/// but should not have to do much of their work.
+/// Share of the solve's goal by which residuals may be off where contacts change: the last round ends with a
+/// true one, but should not have to do much of the others' work.
 constexpr double kAllowedDrift = 0.5;
 /// Speed that counts as rest [m/s]: a micrometre in three hours.
 constexpr double kRestSpeed = 1e-10;
@@ -126,20 +127,21 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
 SolveReport Integrator::solveWithContacts(double dt) {
   const double first = solver_.begin(system_, impulse_, change_);
   const double goal = std::max(params_.solverTolerance * first, smallestGoal());
+  const auto stops = [&](std::int32_t i, const Eigen::Vector3d& change) {
+    return contacts_.isChangedBy(i, motion_[i], change, dt);
+  };
+  SolveWatch watch = {kFirstAim * first, kAimStep, kAllowedDrift * goal, {}, stops};
   SolveReport report;
-  double aim = std::max(goal, kFirstAim * first);
   for (int pass = 0; pass < kWallPasses; ++pass) {
-    if (pass == kWallPasses - 1) aim = goal;
+    if (pass == kWallPasses - 1) watch.mark = 0;
+    watch.rows = contacts_.doubtful();
     const int left = params_.solverIterations - report.iterations;
-    const double allowed = aim <= goal ? 0 : kAllowedDrift * goal;
-    const SolveReport done = solver_.solve(system_, impulse_, aim, left, change_, allowed);
-    report = {report.iterations + done.iterations, done.residual, done.converged,
+    const SolveReport done = solver_.solve(system_, impulse_, goal, left, change_, watch);
+    report = {report.iterations + done.iterations, done.residual, done.converged, done.stopped,
               report.fellBack || done.fellBack};
     const auto& changed = contacts_.update(motion_, solver_.left(), dt, change_, system_, impulse_);
     solver_.follow(system_, impulse_, change_, changed);
-    const bool settled = changed.empty();
-    if (!done.converged || (settled && aim <= goal)) break;
-    aim = settled ? goal : std::max(goal, kAimStep * aim);
+    if (!done.stopped && (!done.converged || changed.empty())) break;
   }
   if (first > goal) solver_.balance(system_, change_);
   return report;
