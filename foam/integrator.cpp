@@ -69,6 +69,9 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
   return lone;
 }
 
+/// As a CouplingBlock keeps it.
+inline double rounded(double x) { return static_cast<float>(x); }
+
 [[noreturn]] void failToConverge(const SolveReport& report, std::size_t bubbles, double dt) {
   std::ostringstream message;
   message
@@ -111,7 +114,7 @@ std::vector<double> Integrator::reach(double dt) const {
 SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& topology,
                                const Neighbours& neighbours, const std::vector<NearWalls>& walls, double dt) {
   const std::size_t n = lone_.size();
-  findShares(bubbles, topology, dt);
+  findPairs(bubbles, topology, dt);
   system_.own.resize(n), impulse_.resize(n), impulseScale_.resize(n), velocity_.resize(n);
   change_.resize(n);
   system_.start = neighbours.start;
@@ -147,10 +150,10 @@ SolveReport Integrator::solveWithContacts(double dt) {
   return report;
 }
 
-void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topology, double dt) {
+void Integrator::findPairs(const BubbleStore& bubbles, const FoamTopology& topology, double dt) {
   constexpr std::size_t kMost = PairForces::kMost;
   const std::size_t pairs = topology.overlaps.size();
-  paired_.resize(bubbles.size()), pairShare_.resize(pairs);
+  paired_.resize(bubbles.size()), pairBlock_.resize(pairs), pairImpulse_.resize(pairs);
   forEachIndex(paired_.size(), [&](std::size_t i) {
     const Eigen::Vector3d &x = bubbles.position[i], &v = motion_[i].velocity;
     paired_[i] = {{x.x(), x.y(), x.z()}, {v.x(), v.y(), v.z()}, bubbles.radius[i], mass_[i]};
@@ -162,7 +165,7 @@ void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topo
     for (std::size_t group = range.begin(); group != range.end(); ++group) {
       const std::size_t first = group * kMost, count = std::min(kMost, pairs - first);
       forces.find(foam, first, count);
-      setShares(forces, topology, first, count, dt);
+      setPairs(forces, topology, first, count, dt);
     }
   });
 }
@@ -170,26 +173,26 @@ void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topo
 /// Of pairs `first` .. `first` + `count` - 1, whose forces are known. dt^2 K + dt C with K = along n n^T +
 /// across (I - n n^T): the turning part is split off so that both terms stay positive; along >= across
 /// always.
-void Integrator::setShares(const PairForces& forces, const FoamTopology& topology, std::size_t first,
-                           std::size_t count, double dt) {
+void Integrator::setPairs(const PairForces& forces, const FoamTopology& topology, std::size_t first,
+                          std::size_t count, double dt) {
   std::array<PairForces::Column, 3> along, impulse;
   PairForces::Column across;
   const auto &n = forces.direction, &v = forces.approach;
   for (std::size_t k = 0; k < across.size(); ++k) {
     const double root = dt * std::sqrt(forces.along[k] - forces.across[k]);
-    const double closing = root * (n[0][k] * v[0][k] + n[1][k] * v[1][k] + n[2][k] * v[2][k]);
-    const double push = dt * forces.tension[k] - root * closing;
-    across[k] = dt * (dt * forces.across[k] + forces.damping[k]);
+    for (int axis = 0; axis < 3; ++axis) along[axis][k] = rounded(root * n[axis][k]);
+    across[k] = rounded(dt * (dt * forces.across[k] + forces.damping[k]));
+    const double closing = along[0][k] * v[0][k] + along[1][k] * v[1][k] + along[2][k] * v[2][k];
+    const double pull = dt * forces.tension[k];
     for (int axis = 0; axis < 3; ++axis) {
-      along[axis][k] = root * n[axis][k];
-      impulse[axis][k] = push * n[axis][k] - across[k] * v[axis][k];
+      impulse[axis][k] = pull * n[axis][k] - closing * along[axis][k] - across[k] * v[axis][k];
     }
   }
   for (std::size_t k = 0; k < count; ++k) {
     const double distance = topology.overlaps[first + k].distance;
-    pairShare_[first + k] = {{{along[0][k], along[1][k], along[2][k]}, across[k]},
-                             {impulse[0][k], impulse[1][k], impulse[2][k]},
-                             dt * (std::abs(forces.tension[k]) + forces.along[k] * distance)};
+    pairBlock_[first + k] = CouplingBlock({along[0][k], along[1][k], along[2][k]}, across[k]);
+    pairImpulse_[first + k] = {{impulse[0][k], impulse[1][k], impulse[2][k]},
+                               dt * (std::abs(forces.tension[k]) + forces.along[k] * distance)};
   }
 }
 
@@ -198,12 +201,12 @@ void Integrator::assembleRow(std::size_t i, const Neighbours& neighbours) {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
   double size = lone_[i].mass * motion.velocity.norm();
   for (std::int32_t e = neighbours.start[i]; e < neighbours.start[i + 1]; ++e) {
-    const PairShare& share = pairShare_[neighbours.pair[e]];
-    const std::int32_t other = neighbours.other[e];
+    const std::int32_t pair = neighbours.pair[e], other = neighbours.other[e];
+    const PairImpulse& of = pairImpulse_[pair];
     const bool first = static_cast<std::int32_t>(i) < other;
-    system_.other[e] = other, system_.block[e] = share.block;
-    impulse += first ? share.impulse : Eigen::Vector3d(-share.impulse);
-    size += share.size;
+    system_.other[e] = other, system_.block[e] = pairBlock_[pair];
+    impulse += first ? of.first : Eigen::Vector3d(-of.first);
+    size += of.size;
   }
   system_.own[i] = motion.matrix, impulse_[i] = impulse, impulseScale_[i] = size;
   // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.

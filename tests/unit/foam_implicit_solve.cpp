@@ -41,8 +41,8 @@ Eigen::MatrixXd dense(const BlockSystem& a) {
   for (Eigen::Index i = 0; i < n; ++i) {
     matrix.block<3, 3>(3 * i, 3 * i) = a.diagonal(static_cast<std::size_t>(i));
     for (auto e = a.start[i]; e < a.start[i + 1]; ++e)
-      matrix.block<3, 3>(3 * i, 3 * a.other[e]) = -(a.block[e].along * a.block[e].along.transpose() +
-                                                    a.block[e].across * Eigen::Matrix3d::Identity());
+      matrix.block<3, 3>(3 * i, 3 * a.other[e]) = -(a.block[e].along() * a.block[e].along().transpose() +
+                                                    a.block[e].across() * Eigen::Matrix3d::Identity());
   }
   return matrix;
 }
@@ -124,7 +124,7 @@ TEST(ImplicitSolve, FindsWhatLightBodiesDoAcrossStiffLinks) {
   constexpr double kAgreement = 1e-2, kLeastOwn = 0.5;  // no own block is softer than that times the mass
   for (const double mass : {1.0, 1e-4, 1e-8}) {
     BlockSystem a = randomSystem(3000, 1.0);
-    for (std::size_t e = 0; e < a.block.size(); ++e) a.block[e].across = 0;
+    for (std::size_t e = 0; e < a.block.size(); ++e) a.block[e].number[3] = 0;
     for (std::size_t i = 0; i < a.size(); i += 2) a.own[i] *= mass;
     const Vectors3 exact = randomVectors(a.size()), b = product(a, exact);
     for (const LinearSolver kind : {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky}) {
