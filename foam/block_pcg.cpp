@@ -1,5 +1,6 @@
 #include "foam/block_pcg.h"
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -16,6 +17,10 @@ using Eigen::Vector4f;
 /// too high, which cost half as many iterations again.
 constexpr double kNear = 10;
 constexpr int kLook = 8;
+
+/// The slope after a step is found as a difference: below this share of the last one its digits are lost to
+/// single precision. Only then has a step all but solved the system, as it does one bubble's.
+constexpr double kLostSlope = 1e-5;
 
 /// Rounding that a residual gathers, as a share of D e: measured 0.6e-7 to 1.1e-7 on froths, 2.6e-7
 /// and 4.3e-7 on a stiff chain that moves as a whole. An estimate, no bound: who needs one finds the residual
@@ -50,23 +55,22 @@ Quad padded(const Eigen::Vector3d& v) {
 
 BlockPcg::Result BlockPcg::improve(const SweptSystem& a, const IncompleteCholesky& factor,
                                    const CoarseCorrection& coarse, double goal, int maxIterations,
-                                   Vectors3& b, Vectors3& x) {
+                                   SolveWatch& watch, Vectors3& b, Vectors3& x) {
   state_.resize(a.size()), image_.resize(a.size());
   known_.resize(2 * a.size() + 2);
   forEachIndex(known_.size(), [&](std::size_t k) { known_[k].setZero(); });
   Result result = {};
-  Crew::lead(a.tasks(),
-             [&](Crew& crew) { result = iterate(crew, a, factor, coarse, b, goal, maxIterations); });
+  Crew::lead(a.tasks(), [&](Crew& crew) {
+    result = iterate(crew, a, factor, coarse, goal, maxIterations, watch, b, x);
+  });
   const double squares = reduceIndices(
       a.size(), 0.0,
       [&](std::size_t k) {
-        const Eigen::Vector3d sum = state_[k].sum.head<3>().cast<double>();
-        const std::size_t i = a.source[k], cluster = coarse.clusterOf(i);
-        Eigen::Vector3d move = factor.scale[k].matrix().transpose() * sum;
-        if (cluster < coarse.clusters()) move += clusters_.sum.segment<3>(3 * cluster);
-        x[i] += move;
-        if (result.reached) b[i] = image_[k].head<3>().cast<double>();
-        return factor.scale[k].solve(sum).squaredNorm();
+        const Eigen::Vector4f& sum = state_[k].sum;
+        const std::size_t i = a.source[k];
+        x[i] += moveOf(k, loadQuad(sum), a, factor, coarse);
+        if (result.reached || result.stopped) b[i] = image_[k].head<3>().cast<double>();
+        return factor.scale[k].solve(sum.head<3>().cast<double>()).squaredNorm();
       },
       std::plus<>());
   result.drift = kRounding * std::sqrt(squares);
@@ -75,18 +79,24 @@ BlockPcg::Result BlockPcg::improve(const SweptSystem& a, const IncompleteCholesk
 
 /// Leaves the solution in the states' sums.
 BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-                                   const CoarseCorrection& coarse, const Vectors3& b, double goal,
-                                   int maxIterations) {
+                                   const CoarseCorrection& coarse, double goal, int maxIterations,
+                                   SolveWatch& watch, const Vectors3& b, const Vectors3& x) {
   startClusters(coarse, b);
   // |r| follows the norm the iteration knows closely enough to tell when to look at it.
   Norms known = start(crew, a, factor, coarse, b);
   double slope = known.slope, length = 0, momentum = 0;
+  bool isLost = false;
   int iterations = 0;
   for (; iterations < maxIterations && known.slope > 0; ++iterations) {
     const double guess = known.plain * std::sqrt(slope / known.slope);
-    if (guess <= goal || (guess <= kNear * goal && (iterations + 1) % kLook == 0)) {
+    if (watch.isDue(guess, goal) && isStopped(crew, a, factor, coarse, length, watch, x)) {
+      known = look(crew, a, factor, length);
+      return {iterations, known.plain <= goal, true, known.plain, 0};
+    }
+    if (isLost || guess <= goal || (guess <= kNear * goal && (iterations + 1) % kLook == 0)) {
       known = look(crew, a, factor, std::exchange(length, 0));
-      if (known.plain <= goal) return {iterations, true, known.plain, 0};
+      if (known.plain <= goal) return {iterations, true, false, known.plain, 0};
+      if (isLost) slope = known.slope, momentum = 0;
     }
     const double ofRows = searchBack(crew, a, factor, length, momentum);
     slope = ofRows + turnClusters(crew, coarse, momentum);
@@ -96,11 +106,37 @@ BlockPcg::Result BlockPcg::iterate(Crew& crew, const SweptSystem& a, const Incom
     length = slope / found.curvature;
     advanceClusters(length);
     const double next = std::max(0.0, ofRows + length * (length * found.square - 2 * found.alongResidual));
+    isLost = next <= kLostSlope * slope;
     momentum = next / slope, slope = next;
   }
   if (length != 0)
     sweepForth(crew, a, [&](std::size_t, std::size_t k) { advance(k, static_cast<float>(length)); });
-  return {iterations, false, 0, 0};
+  return {iterations, false, false, 0, 0};
+}
+
+/// What x has gained in row k, given G^-T of what the rows' states have found for it.
+Eigen::Vector3d BlockPcg::moveOf(std::size_t k, const Quad& sum, const SweptSystem& a,
+                                 const IncompleteCholesky& factor, const CoarseCorrection& coarse) const {
+  const std::size_t cluster = coarse.clusterOf(a.source[k]);
+  Eigen::Vector3d move = factor.scale[k].matrix().transpose() * toVector(sum).head<3>().cast<double>();
+  if (cluster < coarse.clusters()) move += clusters_.sum.segment<3>(3 * cluster);
+  return move;
+}
+
+/// Whether the watch ends the solve, `length` along the search direction.
+bool BlockPcg::isStopped(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                         const CoarseCorrection& coarse, double length, const SolveWatch& watch,
+                         const Vectors3& x) const {
+  const std::size_t count = watch.rows.size(), tasks = crew.tasks();
+  std::atomic<bool> stopped = false;
+  crew.forEachTask([&](std::size_t task) {
+    for (std::size_t r = task * count / tasks; r < (task + 1) * count / tasks && !stopped; ++r) {
+      const std::int32_t i = watch.rows[r], k = a.placeOf(i);
+      const Quad sum = loadQuad(state_[k].sum) + static_cast<float>(length) * loadQuad(state_[k].step);
+      if (watch.stops(i, x[i] + moveOf(k, sum, a, factor, coarse))) stopped = true;
+    }
+  });
+  return stopped;
 }
 
 /// Sets the residual to b less what the clusters' motions do, all else to 0. Knows no search direction yet.

@@ -2,6 +2,7 @@
 
 #include "foam/coarse_correction.h"
 #include "foam/incomplete_cholesky.h"
+#include "foam/solve_watch.h"
 #include "foam/swept_system.h"
 
 namespace spume::foam {
@@ -20,14 +21,15 @@ class BlockPcg {
   struct Result {
     int iterations;
     bool reached;  ///< the goal
-    double norm;   ///< |b - A e| as far as the iteration knows, if so [kg m/s]
+    bool stopped;  ///< by the watch
+    double norm;   ///< |b - A e| as far as the iteration knows, if either [kg m/s]
     double drift;  ///< by about how much it may be off: rounding of D e [kg m/s]
   };
   /// Adds to `x` (rows as in the BlockSystem) a solution of A e = b, until |b - A e| <= goal [kg m/s] as far
-  /// as the iteration knows, or `maxIterations`. If it gets there, b becomes b - A e, again as
-  /// far as it knows.
+  /// as the iteration knows, or the watch ends it, or `maxIterations`. In the first two cases b becomes
+  /// b - A e, again as far as it knows.
   Result improve(const SweptSystem& a, const IncompleteCholesky& factor, const CoarseCorrection& coarse,
-                 double goal, int maxIterations, Vectors3& b, Vectors3& x);
+                 double goal, int maxIterations, SolveWatch& watch, Vectors3& b, Vectors3& x);
 
  private:
   /// What the iteration knows of a row, in one cache line. With G of IncompleteCholesky and the search
@@ -57,7 +59,13 @@ class BlockPcg {
   };
 
   Result iterate(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
-                 const CoarseCorrection& coarse, const Vectors3& b, double goal, int maxIterations);
+                 const CoarseCorrection& coarse, double goal, int maxIterations, SolveWatch& watch,
+                 const Vectors3& b, const Vectors3& x);
+  Eigen::Vector3d moveOf(std::size_t k, const Quad& sum, const SweptSystem& a,
+                         const IncompleteCholesky& factor, const CoarseCorrection& coarse) const;
+  bool isStopped(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
+                 const CoarseCorrection& coarse, double length, const SolveWatch& watch,
+                 const Vectors3& x) const;
   Norms start(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor,
               const CoarseCorrection& coarse, const Vectors3& b);
   double searchBack(Crew& crew, const SweptSystem& a, const IncompleteCholesky& factor, double length,

@@ -23,7 +23,7 @@ bool movesWithOthers(const BlockSystem& a, const SweptSystem& swept, std::size_t
 
 SymmetricSum matrixOf(const CouplingBlock& block) {
   SymmetricSum matrix;
-  matrix.add(DoubleQuad{block.along.x(), block.along.y(), block.along.z(), block.across});
+  matrix.add(block.number);
   return matrix;
 }
 

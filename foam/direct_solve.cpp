@@ -63,8 +63,8 @@ void DirectSolve::Internals::copyValues(const BlockSystem& a) {
       for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
         if (a.other[e] <= static_cast<std::int32_t>(i)) continue;
         const CouplingBlock& block = a.block[e];
-        for (int r = 0; r < 3; ++r)
-          *next++ = -(block.along[r] * block.along[c] + (r == c ? block.across : 0.0));
+        const Eigen::Vector3d along = block.along();
+        for (int r = 0; r < 3; ++r) *next++ = -(along[r] * along[c] + (r == c ? block.across() : 0.0));
       }
     }
   }

@@ -69,45 +69,49 @@ double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {
 }
 
 SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                                 Vectors3& x, double allowed) {
-  if (norm_ <= goal && drift_ > allowed) findResidual(a, b, x);
+                                 Vectors3& x) {
+  SolveWatch none;
+  return solve(a, b, goal, maxIterations, x, none);
+}
+
+SolveReport ImplicitSolve::solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
+                                 Vectors3& x, SolveWatch& watch) {
+  if (norm_ <= goal && drift_ > 0) findResidual(a, b, x);
   const double first = norm_;
   SolveReport report;
   report.converged = first <= goal;
   if (report.converged) return report;
   const bool iterative = solver_ != LinearSolver::cholmod;
-  if (iterative) report.iterations = iterate(a, b, goal, maxIterations, allowed, x);
+  if (iterative) iterate(a, b, goal, maxIterations, watch, x, report);
   const auto reached = [&] {
     return norm_ <= goal || norm_ <= std::min(roundOff(a, x), kLargestRoundOff * lengthOf(b));
   };
-  if (!reached()) report.fellBack = solveDirectly(a, b, goal, x) && iterative;
+  if (!report.stopped && !reached()) report.fellBack = solveDirectly(a, b, goal, x) && iterative;
   report.residual = norm_ / first;
-  report.converged = reached();
+  report.converged = !report.stopped && reached();
   return report;
 }
 
-int ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
-                           double allowed, Vectors3& x) {
+void ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations,
+                            SolveWatch& watch, Vectors3& x, SolveReport& report) {
   if (!std::exchange(isLaidOut_, true)) {
     const bool factors = solver_ == LinearSolver::pcgIncompleteCholesky;
     swept_.copy(a, factors);
     Crew::lead(swept_.tasks(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
     coarse_.build(a, swept_, factors);
   }
-  int iterations = 0;
-  for (int pass = 0; pass < kRefinements && norm_ > goal && iterations < maxIterations; ++pass) {
+  for (int pass = 0; pass < kRefinements && norm_ > goal && report.iterations < maxIterations; ++pass) {
     const double last = norm_, aim = std::max(kAim * goal, kSinglePrecision * last);
     const BlockPcg::Result done =
-        pcg_.improve(swept_, cholesky_, coarse_, aim, maxIterations - iterations, residual_, x);
-    iterations += done.iterations;
+        pcg_.improve(swept_, cholesky_, coarse_, aim, maxIterations - report.iterations, watch, residual_, x);
+    report.iterations += done.iterations, report.stopped = done.stopped;
     drift_ += done.drift;
-    if (done.reached && drift_ <= allowed)
+    if (done.stopped && drift_ <= watch.allowed)
       norm_ = done.norm;
     else
       findResidual(a, b, x);
-    if (norm_ > kStalled * last) break;
+    if (done.stopped || norm_ > kStalled * last) break;
   }
-  return iterations;
 }
 
 /// From the residual as it is.

@@ -8,6 +8,7 @@
 #include "foam/coarse_correction.h"
 #include "foam/direct_solve.h"
 #include "foam/foam_params.h"
+#include "foam/solve_watch.h"
 
 namespace spume::foam {
 
@@ -16,6 +17,7 @@ struct SolveReport {
   int iterations = 0;
   double residual = 0;
   bool converged = false;
+  bool stopped = false;   ///< by the watch, before that
   bool fellBack = false;  ///< the iteration stalled and the direct solver took over
 };
 
@@ -37,22 +39,23 @@ class ImplicitSolve {
   /// Solves until |b - A x| <= goal [kg m/s], from the x and the system that begin() or, after that, solve()
   /// and follow() have last seen. An iteration that does not get there within `maxIterations` is finished by
   /// the direct solver, where its factor fits into memory. A result that did not converge is still the best
-  /// one found. Saves the time to find the residual anew as long as rounding has not put what is known of it
-  /// off by more than `allowed` [kg m/s].
+  /// one found. The `watch` may end an iteration before.
   SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x,
-                    double allowed = 0);
+                    SolveWatch& watch);
+  SolveReport solve(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, Vectors3& x);
   /// Corrects x by a rigid motion of everything, after which the residuals add up to nothing but round-off:
   /// couplings then leave total momentum as it is. Ends work on the system, of which x is what has last been
   /// seen: what it takes from all it adds to the few rows that resist most, and they would have to be solved
   /// again.
   void balance(const BlockSystem& a, Vectors3& x) const;
-  /// b - A x of each row as begin(), follow() or solve() left it [kg m/s]; off by as much as was allowed.
+  /// b - A x of each row as begin(), follow() or solve() left it [kg m/s]; where a watch has ended it, off
+  /// by as much as that allows.
   const Vectors3& left() const { return residual_; }
 
  private:
   void findResidual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
-  int iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, double allowed,
-              Vectors3& x);
+  void iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, SolveWatch& watch,
+               Vectors3& x, SolveReport& report);
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
 
   LinearSolver solver_;

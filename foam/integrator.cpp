@@ -24,12 +24,13 @@ constexpr double kFlatGradient = 1e-6;
 /// Rounds of finding out which bubbles press on a wall: each settles nearly all, and what is left waits for
 /// the next step.
 constexpr int kWallPasses = 8;
-/// Residual of the first round, and of each next one that is not the last: who presses on a wall shows long
-/// before the velocities have all their digits, but not after the few iterations that a tenth takes. Shorter
-/// steps (0.1) take a fifth more rounds for as many iterations, longer ones (0.01) more iterations.
+/// Residual at which contacts are looked at first, as a share of the first one, and each later one as a share
+/// of that: who presses on a wall shows long before the velocities have all their digits, but not after the
+/// few iterations that a tenth takes. Shorter steps (0.1) take a fifth more rounds for as many iterations,
+/// longer ones (0.02) more iterations.
 constexpr double kFirstAim = 0.01, kAimStep = 0.05;
-/// Share of the last round's aim by which the residuals of the others may be off: it ends with a true one,
-/// but should not have to do much of their work.
+/// Share of the solve's goal by which residuals may be off where contacts change: the last round ends with a
+/// true one, but should not have to do much of the others' work.
 constexpr double kAllowedDrift = 0.5;
 /// Speed that counts as rest [m/s]: a micrometre in three hours.
 constexpr double kRestSpeed = 1e-10;
@@ -67,6 +68,9 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
   setSurface(params, around.gradPhi.col(i), lone);
   return lone;
 }
+
+/// As a CouplingBlock keeps it.
+inline double rounded(double x) { return static_cast<float>(x); }
 
 [[noreturn]] void failToConverge(const SolveReport& report, std::size_t bubbles, double dt) {
   std::ostringstream message;
@@ -110,7 +114,7 @@ std::vector<double> Integrator::reach(double dt) const {
 SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& topology,
                                const Neighbours& neighbours, const std::vector<NearWalls>& walls, double dt) {
   const std::size_t n = lone_.size();
-  findShares(bubbles, topology, dt);
+  findPairs(bubbles, topology, dt);
   system_.own.resize(n), impulse_.resize(n), impulseScale_.resize(n), velocity_.resize(n);
   change_.resize(n);
   system_.start = neighbours.start;
@@ -126,29 +130,30 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
 SolveReport Integrator::solveWithContacts(double dt) {
   const double first = solver_.begin(system_, impulse_, change_);
   const double goal = std::max(params_.solverTolerance * first, smallestGoal());
+  const auto stops = [&](std::int32_t i, const Eigen::Vector3d& change) {
+    return contacts_.isChangedBy(i, motion_[i], change, dt);
+  };
+  SolveWatch watch = {kFirstAim * first, kAimStep, kAllowedDrift * goal, {}, stops};
   SolveReport report;
-  double aim = std::max(goal, kFirstAim * first);
   for (int pass = 0; pass < kWallPasses; ++pass) {
-    if (pass == kWallPasses - 1) aim = goal;
+    if (pass == kWallPasses - 1) watch.mark = 0;
+    watch.rows = contacts_.doubtful();
     const int left = params_.solverIterations - report.iterations;
-    const double allowed = aim <= goal ? 0 : kAllowedDrift * goal;
-    const SolveReport done = solver_.solve(system_, impulse_, aim, left, change_, allowed);
-    report = {report.iterations + done.iterations, done.residual, done.converged,
+    const SolveReport done = solver_.solve(system_, impulse_, goal, left, change_, watch);
+    report = {report.iterations + done.iterations, done.residual, done.converged, done.stopped,
               report.fellBack || done.fellBack};
     const auto& changed = contacts_.update(motion_, solver_.left(), dt, change_, system_, impulse_);
     solver_.follow(system_, impulse_, change_, changed);
-    const bool settled = changed.empty();
-    if (!done.converged || (settled && aim <= goal)) break;
-    aim = settled ? goal : std::max(goal, kAimStep * aim);
+    if (!done.stopped && (!done.converged || changed.empty())) break;
   }
   if (first > goal) solver_.balance(system_, change_);
   return report;
 }
 
-void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topology, double dt) {
+void Integrator::findPairs(const BubbleStore& bubbles, const FoamTopology& topology, double dt) {
   constexpr std::size_t kMost = PairForces::kMost;
   const std::size_t pairs = topology.overlaps.size();
-  paired_.resize(bubbles.size()), pairShare_.resize(pairs);
+  paired_.resize(bubbles.size()), pairBlock_.resize(pairs), pairImpulse_.resize(pairs);
   forEachIndex(paired_.size(), [&](std::size_t i) {
     const Eigen::Vector3d &x = bubbles.position[i], &v = motion_[i].velocity;
     paired_[i] = {{x.x(), x.y(), x.z()}, {v.x(), v.y(), v.z()}, bubbles.radius[i], mass_[i]};
@@ -160,7 +165,7 @@ void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topo
     for (std::size_t group = range.begin(); group != range.end(); ++group) {
       const std::size_t first = group * kMost, count = std::min(kMost, pairs - first);
       forces.find(foam, first, count);
-      setShares(forces, topology, first, count, dt);
+      setPairs(forces, topology, first, count, dt);
     }
   });
 }
@@ -168,26 +173,26 @@ void Integrator::findShares(const BubbleStore& bubbles, const FoamTopology& topo
 /// Of pairs `first` .. `first` + `count` - 1, whose forces are known. dt^2 K + dt C with K = along n n^T +
 /// across (I - n n^T): the turning part is split off so that both terms stay positive; along >= across
 /// always.
-void Integrator::setShares(const PairForces& forces, const FoamTopology& topology, std::size_t first,
-                           std::size_t count, double dt) {
+void Integrator::setPairs(const PairForces& forces, const FoamTopology& topology, std::size_t first,
+                          std::size_t count, double dt) {
   std::array<PairForces::Column, 3> along, impulse;
   PairForces::Column across;
   const auto &n = forces.direction, &v = forces.approach;
   for (std::size_t k = 0; k < across.size(); ++k) {
     const double root = dt * std::sqrt(forces.along[k] - forces.across[k]);
-    const double closing = root * (n[0][k] * v[0][k] + n[1][k] * v[1][k] + n[2][k] * v[2][k]);
-    const double push = dt * forces.tension[k] - root * closing;
-    across[k] = dt * (dt * forces.across[k] + forces.damping[k]);
+    for (int axis = 0; axis < 3; ++axis) along[axis][k] = rounded(root * n[axis][k]);
+    across[k] = rounded(dt * (dt * forces.across[k] + forces.damping[k]));
+    const double closing = along[0][k] * v[0][k] + along[1][k] * v[1][k] + along[2][k] * v[2][k];
+    const double pull = dt * forces.tension[k];
     for (int axis = 0; axis < 3; ++axis) {
-      along[axis][k] = root * n[axis][k];
-      impulse[axis][k] = push * n[axis][k] - across[k] * v[axis][k];
+      impulse[axis][k] = pull * n[axis][k] - closing * along[axis][k] - across[k] * v[axis][k];
     }
   }
   for (std::size_t k = 0; k < count; ++k) {
     const double distance = topology.overlaps[first + k].distance;
-    pairShare_[first + k] = {{{along[0][k], along[1][k], along[2][k]}, across[k]},
-                             {impulse[0][k], impulse[1][k], impulse[2][k]},
-                             dt * (std::abs(forces.tension[k]) + forces.along[k] * distance)};
+    pairBlock_[first + k] = CouplingBlock({along[0][k], along[1][k], along[2][k]}, across[k]);
+    pairImpulse_[first + k] = {{impulse[0][k], impulse[1][k], impulse[2][k]},
+                               dt * (std::abs(forces.tension[k]) + forces.along[k] * distance)};
   }
 }
 
@@ -196,12 +201,12 @@ void Integrator::assembleRow(std::size_t i, const Neighbours& neighbours) {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
   double size = lone_[i].mass * motion.velocity.norm();
   for (std::int32_t e = neighbours.start[i]; e < neighbours.start[i + 1]; ++e) {
-    const PairShare& share = pairShare_[neighbours.pair[e]];
-    const std::int32_t other = neighbours.other[e];
+    const std::int32_t pair = neighbours.pair[e], other = neighbours.other[e];
+    const PairImpulse& of = pairImpulse_[pair];
     const bool first = static_cast<std::int32_t>(i) < other;
-    system_.other[e] = other, system_.block[e] = share.block;
-    impulse += first ? share.impulse : Eigen::Vector3d(-share.impulse);
-    size += share.size;
+    system_.other[e] = other, system_.block[e] = pairBlock_[pair];
+    impulse += first ? of.first : Eigen::Vector3d(-of.first);
+    size += of.size;
   }
   system_.own[i] = motion.matrix, impulse_[i] = impulse, impulseScale_[i] = size;
   // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.

@@ -53,16 +53,15 @@ class Integrator {
   double kineticEnergy() const;  ///< with the new velocities [J]
 
  private:
-  /// What a pair adds to the system, in one cache line.
-  struct alignas(64) PairShare {
-    CouplingBlock block;
-    Eigen::Vector3d impulse;  ///< of the first bubble; the second has the opposite [kg m/s]
-    double size;              ///< of what adds up to it [kg m/s]
+  /// What a pair adds to the impulses.
+  struct alignas(32) PairImpulse {
+    Eigen::Vector3d first;  ///< of the first bubble; the second has the opposite [kg m/s]
+    double size;            ///< of what adds up to it [kg m/s]
   };
 
-  void findShares(const BubbleStore& bubbles, const FoamTopology& topology, double dt);
-  void setShares(const PairForces& forces, const FoamTopology& topology, std::size_t first, std::size_t count,
-                 double dt);
+  void findPairs(const BubbleStore& bubbles, const FoamTopology& topology, double dt);
+  void setPairs(const PairForces& forces, const FoamTopology& topology, std::size_t first, std::size_t count,
+                double dt);
   void assembleRow(std::size_t i, const Neighbours& neighbours);
   /// Solves, and again while wall contacts change.
   SolveReport solveWithContacts(double dt);
@@ -75,7 +74,8 @@ class Integrator {
   std::vector<double> mass_, immersed_;
   std::vector<LinearMotion> motion_;
   std::vector<PairedBubble> paired_;
-  std::vector<PairShare> pairShare_;
+  std::vector<CouplingBlock> pairBlock_;
+  std::vector<PairImpulse> pairImpulse_;
   BlockSystem system_;
   Vectors3 impulse_, change_, velocity_;
   std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include "foam/parallel.h"
 
@@ -10,14 +9,6 @@ namespace spume::foam {
 namespace {
 
 constexpr std::size_t kOwnWork = 6;  ///< of a row without couplings, in couplings
-
-/// In single precision.
-SweptSystem::Coupling rounded(const CouplingBlock& block) {
-  static_assert(sizeof(CouplingBlock) == sizeof(DoubleQuad));
-  DoubleQuad quad;
-  std::memcpy(&quad, &block, sizeof quad);
-  return toVector(__builtin_convertvector(quad, Quad));
-}
 
 }  // namespace
 
@@ -137,7 +128,7 @@ void SweptSystem::copyRow(const BlockSystem& a, std::size_t k) {
     const std::int32_t to = place[kind]++;
     Couplings& of = *list[kind];
     of.other[to] = place_[a.other[e]] + shift[kind];
-    of.block[to] = rounded(a.block[e]);
+    of.block[to] = a.block[e].number;
   }
 }
 

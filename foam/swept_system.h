@@ -14,9 +14,7 @@
 namespace spume::foam {
 
 /// A BlockSystem laid out for sweeps of conjugate gradients: rows cut into blocks, each row with two runs of
-/// couplings, those with rows swept later and all others. Couplings are kept in single precision: the matrix
-/// differs by 1e-7 of each spring, which one refinement against the BlockSystem undoes, and a sweep moves
-/// half the memory.
+/// couplings, those with rows swept later and all others.
 ///
 /// Blocks are consecutive rows, and what couples two of them an incomplete factor would not know. So the rows
 /// at their borders are taken out and swept in a round of their own when the inner rows of every block are

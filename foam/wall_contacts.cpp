@@ -27,6 +27,10 @@ constexpr double kSameBrake = 0.05;
 /// next step: a brake that lags takes energy, whatever it is.
 constexpr int kBrakeRounds = 2;
 
+/// A bubble counts as doubtful while this many times the last change of its velocity would make it meet a
+/// wall or leave one, and is not looked at while it would take as many times its whole change.
+constexpr double kDoubt = 4, kFar = 2;
+
 /// Projection onto the plane of a wall.
 Matrix3d alongWall(const NearWall& wall) {
   const Vector3d normal = wall.away.normalized();
@@ -56,13 +60,16 @@ void WallContacts::begin(const std::vector<NearWalls>& walls, const std::vector<
                          Vectors3& impulse) {
   walls_ = walls.data(), room_.resize(walls.size()), round_ = 0;
   closed_.assign(grip_.size(), 0), brake_.assign(grip_.size(), 0.0);
+  seen_.resize(grip_.size()), found_.resize(grip_.size());
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
     const Vector3d velocity = motion[i].velocity + change[i];
     for (int k = 0; k < walls_[i].count; ++k)
       updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);
     room_[i] = roomOf(i, motion[i].velocity, dt);
+    seen_[i].setZero(), found_[i] = isDoubtful(i, motion[i], change[i], dt) ? kDoubtful : 0;
     if (grip.adhesion == 0 || walls_[i].count == 0) return;
+    found_[i] = kDoubtful;
     const NearWall& wall = walls_[i].wall[0];
     // Eq. 7, -s psi grad psi, implicit: the spring rests with the bubble's centre on the wall.
     system.own[i] += dt * dt * grip.adhesion * wall.away * wall.away.transpose();
@@ -74,44 +81,79 @@ void WallContacts::begin(const std::vector<NearWalls>& walls, const std::vector<
     if (sticks) change[i] -= slip;
     setBrake(i, sticks ? grip.hold : strength / speed, motion[i].velocity, system, impulse);
   });
+  listFound();
 }
 
 const std::vector<std::int32_t>& WallContacts::update(const std::vector<LinearMotion>& motion,
                                                       const Vectors3& left, double dt, Vectors3& change,
                                                       BlockSystem& system, Vectors3& impulse) {
   const bool setsBrakes = round_++ < kBrakeRounds;
-  isChanged_.resize(grip_.size());
   forEachIndex(grip_.size(), [&](std::size_t i) {
-    isChanged_[i] = 0;
-    if (change[i].squaredNorm() < room_[i] * room_[i]) return;
+    found_[i] = 0;
+    if (kFar * kFar * change[i].squaredNorm() < room_[i] * room_[i]) return;
     const Vector3d predicted = motion[i].velocity, velocity = predicted + change[i];
     bool changed = false;
     for (int k = 0; k < walls_[i].count; ++k)
       changed |= updateContact(i, k, predicted, velocity, dt, system, impulse);
     if (setsBrakes && brake_[i] > 0)
       changed |= updateBrake(i, predicted, left[i].norm(), dt, change[i], system, impulse);
-    isChanged_[i] = changed;
-    if (changed) room_[i] = roomOf(i, predicted, dt);
+    if (changed) found_[i] |= kChanged, room_[i] = roomOf(i, predicted, dt);
+    if (isDoubtful(i, motion[i], change[i], dt)) found_[i] |= kDoubtful;
   });
-  changed_.clear();
-  for (std::size_t i = 0; i < isChanged_.size(); ++i)
-    if (isChanged_[i]) changed_.push_back(static_cast<std::int32_t>(i));
+  listFound();
   return changed_;
+}
+
+void WallContacts::listFound() {
+  changed_.clear(), doubtful_.clear();
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (found_[i] & kChanged) changed_.push_back(static_cast<std::int32_t>(i));
+    if (found_[i] & kDoubtful) doubtful_.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+/// Distance at which wall k pushes [m]: only the wall a bubble adheres to lets its centre come to it.
+double WallContacts::gapOf(std::size_t i, int k) const { return k == 0 ? grip_[i].gap : grip_[i].radius; }
+
+/// By how much a bubble would be nearer to wall k than that [m].
+double WallContacts::overlapOf(std::size_t i, int k, const Vector3d& velocity, double dt) const {
+  return gapOf(i, k) - walls_[i].wall[k].psiAfter(velocity, dt);
+}
+
+bool WallContacts::flips(std::size_t i, int k, double overlap) const {
+  const bool isClosed = closed_[i] & (1u << k);
+  return (overlap > 0) != isClosed && std::abs(overlap) >= kResolution * grip_[i].radius;
+}
+
+bool WallContacts::isChangedBy(std::size_t i, const LinearMotion& motion, const Vector3d& change,
+                               double dt) const {
+  if (round_ < kBrakeRounds && brake_[i] > 0) return true;
+  for (int k = 0; k < walls_[i].count; ++k)
+    if (flips(i, k, overlapOf(i, k, motion.velocity + change, dt))) return true;
+  return false;
+}
+
+/// Notes the change of a bubble's velocity; compares what it takes to open or close a contact with what it
+/// has changed by since it was noted last.
+bool WallContacts::isDoubtful(std::size_t i, const LinearMotion& motion, const Vector3d& change, double dt) {
+  const double moved = (change - std::exchange(seen_[i], change)).norm();
+  if (round_ < kBrakeRounds && brake_[i] > 0) return true;
+  for (int k = 0; k < walls_[i].count; ++k) {
+    const double overlap = overlapOf(i, k, motion.velocity + change, dt);
+    if (std::abs(overlap) <= kDoubt * moved * dt * walls_[i].wall[k].away.norm()) return true;
+  }
+  return false;
 }
 
 bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& predicted, const Vector3d& velocity,
                                  double dt, BlockSystem& system, Vectors3& impulse) {
   const Grip& grip = grip_[i];
   const NearWall& wall = walls_[i].wall[k];
-  const auto bit = static_cast<std::uint8_t>(1u << k);
-  // Only the wall a bubble adheres to lets its centre come to it.
-  const double gap = k == 0 ? grip.gap : grip.radius;
-  const double overlap = gap - wall.psiAfter(velocity, dt);
-  const bool closes = overlap > 0, isClosed = closed_[i] & bit;
-  if (closes == isClosed || std::abs(overlap) < kResolution * grip.radius) return false;
-  closed_[i] ^= bit;
-  const double signedDt = closes ? dt : -dt;
-  const double push = wallContact(grip.stiffness, wall.psiAfter(predicted, dt), gap);
+  const double overlap = overlapOf(i, k, velocity, dt);
+  if (!flips(i, k, overlap)) return false;
+  closed_[i] ^= static_cast<std::uint8_t>(1u << k);
+  const double signedDt = overlap > 0 ? dt : -dt;
+  const double push = wallContact(grip.stiffness, wall.psiAfter(predicted, dt), gapOf(i, k));
   system.own[i] -= signedDt * dt * wallContactSlope(grip.stiffness) * wall.away * wall.away.transpose();
   impulse[i] += signedDt * push * wall.away;
   return true;
@@ -125,7 +167,7 @@ double WallContacts::roomOf(std::size_t i, const Vector3d& predicted, double dt)
   double room = std::numeric_limits<double>::max();
   for (int k = 0; k < walls_[i].count; ++k) {
     const NearWall& wall = walls_[i].wall[k];
-    const double above = wall.psiAfter(predicted, dt) - (k == 0 ? grip.gap : grip.radius);
+    const double above = wall.psiAfter(predicted, dt) - gapOf(i, k);
     room = std::min(room, kSurely * above / (dt * wall.away.norm()));
   }
   return std::max(0.0, room);

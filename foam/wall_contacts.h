@@ -41,6 +41,11 @@ class WallContacts {
                                           double dt, Vectors3& change, BlockSystem& system,
                                           Vectors3& impulse);
 
+  /// Whether the next update() would change anything for bubble i with this change of its velocity.
+  bool isChangedBy(std::size_t i, const LinearMotion& motion, const Eigen::Vector3d& change, double dt) const;
+  /// The bubbles of which one may expect that, as little as their velocities would have to go on changing.
+  const std::vector<std::int32_t>& doubtful() const { return doubtful_; }
+
  private:
   /// How a bubble meets solids.
   struct Grip {
@@ -52,6 +57,14 @@ class WallContacts {
     double hold = 0;       ///< brake of a stuck bubble, large against all else [kg]
   };
 
+  /// What an update finds of a bubble, in bits.
+  static constexpr std::uint8_t kChanged = 1, kDoubtful = 2;
+
+  double gapOf(std::size_t i, int k) const;
+  double overlapOf(std::size_t i, int k, const Eigen::Vector3d& velocity, double dt) const;
+  bool flips(std::size_t i, int k, double overlap) const;
+  bool isDoubtful(std::size_t i, const LinearMotion& motion, const Eigen::Vector3d& change, double dt);
+  void listFound();
   bool updateContact(std::size_t i, int k, const Eigen::Vector3d& predicted, const Eigen::Vector3d& velocity,
                      double dt, BlockSystem& system, Vectors3& impulse);
   bool updateBrake(std::size_t i, const Eigen::Vector3d& predicted, double error, double dt,
@@ -68,8 +81,9 @@ class WallContacts {
   /// Change of its velocity below which nothing about a bubble's walls changes, 0 if it has to be looked at
   /// in every round [m/s].
   std::vector<double> room_;
-  std::vector<std::uint8_t> isChanged_;
-  std::vector<std::int32_t> changed_;  ///< bubbles, by the last update()
+  Vectors3 seen_;                                 ///< change of a bubble's velocity as last looked at [m/s]
+  std::vector<std::uint8_t> found_;               ///< by the last update()
+  std::vector<std::int32_t> changed_, doubtful_;  ///< bubbles of which it has found that
 };
 
 }  // namespace spume::foam

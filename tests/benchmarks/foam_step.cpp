@@ -102,8 +102,8 @@ Eigen::SparseMatrix<double> sparseMatrix(const BlockSystem& a) {
     add(i, i, a.diagonal(i));
     for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e)
       add(i, static_cast<std::size_t>(a.other[e]),
-          -(a.block[e].along * a.block[e].along.transpose() +
-            a.block[e].across * Eigen::Matrix3d::Identity()));
+          -(a.block[e].along() * a.block[e].along().transpose() +
+            a.block[e].across() * Eigen::Matrix3d::Identity()));
   }
   Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(3 * a.size()),
                                      static_cast<Eigen::Index>(3 * a.size()));

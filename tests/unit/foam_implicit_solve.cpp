@@ -41,8 +41,8 @@ Eigen::MatrixXd dense(const BlockSystem& a) {
   for (Eigen::Index i = 0; i < n; ++i) {
     matrix.block<3, 3>(3 * i, 3 * i) = a.diagonal(static_cast<std::size_t>(i));
     for (auto e = a.start[i]; e < a.start[i + 1]; ++e)
-      matrix.block<3, 3>(3 * i, 3 * a.other[e]) = -(a.block[e].along * a.block[e].along.transpose() +
-                                                    a.block[e].across * Eigen::Matrix3d::Identity());
+      matrix.block<3, 3>(3 * i, 3 * a.other[e]) = -(a.block[e].along() * a.block[e].along().transpose() +
+                                                    a.block[e].across() * Eigen::Matrix3d::Identity());
   }
   return matrix;
 }
@@ -124,7 +124,7 @@ TEST(ImplicitSolve, FindsWhatLightBodiesDoAcrossStiffLinks) {
   constexpr double kAgreement = 1e-2, kLeastOwn = 0.5;  // no own block is softer than that times the mass
   for (const double mass : {1.0, 1e-4, 1e-8}) {
     BlockSystem a = randomSystem(3000, 1.0);
-    for (std::size_t e = 0; e < a.block.size(); ++e) a.block[e].across = 0;
+    for (std::size_t e = 0; e < a.block.size(); ++e) a.block[e].number[3] = 0;
     for (std::size_t i = 0; i < a.size(); i += 2) a.own[i] *= mass;
     const Vectors3 exact = randomVectors(a.size()), b = product(a, exact);
     for (const LinearSolver kind : {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky}) {
@@ -167,7 +167,7 @@ TEST(ImplicitSolve, BalancesTheResidualsByARigidShift) {
   EXPECT_LE(left.norm(), 1e-12);  // round-off of sums of order 1e3
 }
 
-TEST(ImplicitSolve, KnowsWhatIsLeftToWithinWhatIsAllowedAndEndsWithATrueResidual) {
+TEST(ImplicitSolve, KnowsWhatIsLeftToWithinWhatItsWatchAllowsAndEndsWithATrueResidual) {
   const std::size_t n = 300;
   const BlockSystem a = randomSystem(static_cast<int>(n), 1e3);
   const Vectors3 b = randomVectors(n);
@@ -179,15 +179,46 @@ TEST(ImplicitSolve, KnowsWhatIsLeftToWithinWhatIsAllowedAndEndsWithATrueResidual
     for (std::size_t i = 0; i < n; ++i) sum += (left[i] - (b[i] - a.row(i, x))).squaredNorm();
     return std::sqrt(sum);
   };
-  EXPECT_TRUE(solver.solve(a, b, 1e-2 * first, 100, x, allowed).converged);
+  const double goal = 1e-9 * first;
+  SolveWatch watch = {1e-2 * first, 0.1, allowed, {0}, [](std::int32_t, const auto&) { return true; }};
+  EXPECT_TRUE(solver.solve(a, b, goal, 100, x, watch).stopped);
   EXPECT_GT(distance(solver.left()), 0);  // what the iteration knows
   EXPECT_LE(distance(solver.left()), allowed);
-  EXPECT_TRUE(solver.solve(a, b, 1e-3 * first, 100, x, 1e-2 * allowed).converged);
+  watch.allowed *= 1e-2;
+  EXPECT_TRUE(solver.solve(a, b, goal, 100, x, watch).stopped);
   EXPECT_EQ(distance(solver.left()), 0);  // rounding alone is more than that
-  const double goal = 1e-9 * first;
   EXPECT_TRUE(solver.solve(a, b, goal, 1000, x).converged);
   EXPECT_LE(distance(Vectors3(n, Eigen::Vector3d::Zero())), goal);
   EXPECT_EQ(distance(solver.left()), 0);
+}
+
+TEST(ImplicitSolve, AWatchSeesWhatXWouldBeAndEndsTheSolveThere) {
+  constexpr double kSinglePrecision = 1e-5;
+  const std::size_t n = 7000;  // some clusters
+  const BlockSystem a = randomSystem(static_cast<int>(n), 1e2);
+  const Vectors3 b = randomVectors(n);
+  for (const LinearSolver kind : {LinearSolver::pcgJacobi, LinearSolver::pcgIncompleteCholesky}) {
+    Vectors3 x(n, Eigen::Vector3d::Ones()), seen;
+    ImplicitSolve solver(kind);
+    const double first = solver.begin(a, b, x);
+    SolveWatch watch = {1e-1 * first, 0.1, 1e-2 * first, {4000}, nullptr};
+    watch.stops = [&](std::int32_t row, const Eigen::Vector3d& sought) {
+      EXPECT_EQ(row, 4000);
+      seen.push_back(sought);
+      return seen.size() == 3;
+    };
+    const SolveReport stopped = solver.solve(a, b, 1e-9 * first, 1000, x, watch);
+    EXPECT_TRUE(stopped.stopped && !stopped.converged && !stopped.fellBack);
+    EXPECT_NEAR(watch.mark, 1e-4 * first, 1e-12 * first);
+    EXPECT_LE(stopped.residual, 3e-3);  // marks are met by a guess of the norm
+    EXPECT_GT(stopped.residual, 1e-5);
+    ASSERT_EQ(seen.size(), 3u);
+    EXPECT_LE((seen[2] - x[4000]).norm(), kSinglePrecision * x[4000].norm());
+    EXPECT_GT((seen[1] - x[4000]).norm(), kSinglePrecision * x[4000].norm());
+    watch.stops = [](std::int32_t, const auto&) { return false; };
+    const SolveReport whole = solver.solve(a, b, 1e-9 * first, 1000, x, watch);
+    EXPECT_TRUE(whole.converged && !whole.stopped);
+  }
 }
 
 TEST(ImplicitSolve, TheDirectSolverFinishesWhatStalls) {
