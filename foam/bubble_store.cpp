@@ -55,11 +55,13 @@ void BubbleStore::remove(const std::vector<std::uint8_t>& flags) {
 }
 
 void BubbleStore::gather(const BubbleStore& from, const std::vector<std::int32_t>& rows) {
-  const auto gatherInto = [&rows](auto& column, const auto& source) {
-    column.resize(rows.size());
-    forEachIndex(rows.size(), [&](std::size_t k) { column[k] = source[rows[k]]; });
-  };
-  forEachColumn(gatherInto, *this, from);
+  forEachColumn([&](auto& column) { column.resize(rows.size()); }, *this);
+  forEachBlock(rows.size(), [&](std::size_t begin, std::size_t end) {
+    const auto gatherInto = [&](auto& column, const auto& source) {
+      for (std::size_t k = begin; k < end; ++k) column[k] = source[rows[k]];
+    };
+    forEachColumn(gatherInto, *this, from);
+  });
   nextId = from.nextId;
 }
 

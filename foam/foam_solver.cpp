@@ -1,7 +1,10 @@
 #include "foam/foam_solver.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -42,20 +45,51 @@ constexpr double kArrivals = 0.05;
 void requireUsable(const BubbleStore& bubbles, double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw InvalidParameter("foam step: dt = " + std::to_string(dt) + " s; it must be positive and finite");
-  for (std::size_t i = 0; i < bubbles.size(); ++i) {
+  const auto isUsable = [&](std::size_t i) {
     const bool finite = bubbles.position[i].allFinite() && bubbles.velocity[i].allFinite() &&
                         std::isfinite(bubbles.radius[i]) && std::isfinite(bubbles.gas[i]);
-    if (!finite || bubbles.radius[i] <= 0 || bubbles.gas[i] <= 0)
+    return finite && bubbles.radius[i] > 0 && bubbles.gas[i] > 0;
+  };
+  if (reduceIndices(bubbles.size(), true, isUsable, std::logical_and<>())) return;
+  for (std::size_t i = 0; i < bubbles.size(); ++i)
+    if (!isUsable(i))
       throw NumericalFailure("foam: bubble " + std::to_string(bubbles.id[i]) +
                              " has a position, velocity, radius or gas that is not finite, or no size");
-  }
 }
 
 void requireFinite(const BubbleStore& bubbles) {
+  const auto isFinite = [&](std::size_t i) {
+    return bubbles.position[i].allFinite() && bubbles.velocity[i].allFinite();
+  };
+  if (reduceIndices(bubbles.size(), true, isFinite, std::logical_and<>())) return;
   for (std::size_t i = 0; i < bubbles.size(); ++i)
-    if (!bubbles.position[i].allFinite() || !bubbles.velocity[i].allFinite())
+    if (!isFinite(i))
       throw NumericalFailure("foam: the step left bubble " + std::to_string(bubbles.id[i]) +
                              " without a finite place");
+}
+
+void sumUp(const BubbleStore& bubbles, FoamStepReport& report) {
+  for (std::size_t i = 0; i < bubbles.size(); ++i) {
+    report.liquid += bubbles.type[i] == BubbleClass::liquid;
+    report.surface += bubbles.type[i] == BubbleClass::surface;
+    report.air += bubbles.type[i] == BubbleClass::air;
+    report.hidden += bubbles.hidden[i], report.clamped += bubbles.clamped[i];
+    report.gas += bubbles.gas[i];
+    report.maxSpeed = std::max(report.maxSpeed, bubbles.velocity[i].norm());
+  }
+}
+
+void summariseVolumes(const BubbleStore& bubbles, FoamStepReport& report) {
+  std::vector<double> error;
+  error.reserve(bubbles.size());
+  for (std::size_t i = 0; i < bubbles.size(); ++i)
+    if (!bubbles.hidden[i] && !bubbles.clamped[i])
+      error.push_back(std::abs(bubbles.volume[i] / bubbles.gas[i] - 1));
+  if (error.empty()) return;
+  const auto middle = error.begin() + static_cast<std::ptrdiff_t>(error.size() / 2);
+  std::nth_element(error.begin(), middle, error.end());
+  report.volumeErrorMedian = *middle;
+  report.volumeErrorMax = *std::max_element(middle, error.end());
 }
 
 }  // namespace
@@ -74,6 +108,7 @@ struct FoamSolver::Internals {
   Neighbours neighbours;
   Surroundings around;
   std::vector<double> widest;  ///< largest radius of each bubble in this step [m]
+  WallSearch wallSearch;
   std::vector<NearWalls> walls;
   BorderDrift drift;
   Attraction attraction;
@@ -92,6 +127,7 @@ struct FoamSolver::Internals {
   void giveBack(BubbleStore& bubbles);
   std::vector<std::ptrdiff_t> rowsOfTopology(const BubbleStore& bubbles) const;
   void findWalls(const LiquidSampler& liquid);
+  void findReachableWalls(const LiquidSampler& liquid);
   void measure();
   void measureStart();
   void noteImpulses(double dt);
@@ -137,9 +173,17 @@ void FoamSolver::Internals::findWalls(const LiquidSampler& liquid) {
     widest[i] = std::max(next.radius[i], params.radiusLimit * gasRadius(next.gas[i]));
   });
   if (isAnyCutByWall(widest, around.psi))
-    findNearWalls(liquid, around, next, widest, walls);
+    wallSearch.find(liquid, around, next, widest, walls);
   else
     walls.clear();
+}
+
+/// Finds the walls that a bubble may meet within the step, by its prediction.
+void FoamSolver::Internals::findReachableWalls(const LiquidSampler& liquid) {
+  if (walls.empty())
+    wallSearch.find(liquid, around, next, integrator.reach(), walls);
+  else
+    wallSearch.findAgain(liquid, around, next, integrator.reach(), walls);
 }
 
 void FoamSolver::Internals::measure() {
@@ -201,7 +245,8 @@ void FoamSolver::Internals::reportClassChanges(const BubbleStore& before, FoamSt
 
 /// Returns whether any life has ended.
 bool FoamSolver::Internals::endLivesAndReport(double dt, FoamStepReport& report) {
-  const auto supported = supportedBubbles(topology, psiEnd, next);
+  const auto supported = params.bursting ? supportedBubbles(topology, psiEnd, next)
+                                         : std::vector<std::uint8_t>(next.size(), 1);  // nobody asks
   const auto ended = endLives(params, topology, supported, psiEnd, dt, next);
   for (const EndedLife& life : ended) {
     const std::size_t i = life.index;
@@ -253,25 +298,9 @@ void FoamSolver::Internals::removeEnded(bool hasEnded) {
 }
 
 void FoamSolver::Internals::summarise(const BubbleStore& bubbles, FoamStepReport& report) const {
-  const std::size_t n = bubbles.size();
-  report.bubbles = n;
+  report.bubbles = bubbles.size();
   report.contacts = topology.films.size(), report.overlaps = topology.overlaps.size();
-  std::vector<double> error;
-  for (std::size_t i = 0; i < n; ++i) {
-    report.liquid += bubbles.type[i] == BubbleClass::liquid;
-    report.surface += bubbles.type[i] == BubbleClass::surface;
-    report.air += bubbles.type[i] == BubbleClass::air;
-    report.hidden += bubbles.hidden[i], report.clamped += bubbles.clamped[i];
-    report.gas += bubbles.gas[i];
-    report.maxSpeed = std::max(report.maxSpeed, bubbles.velocity[i].norm());
-    if (!bubbles.hidden[i] && !bubbles.clamped[i])
-      error.push_back(std::abs(bubbles.volume[i] / bubbles.gas[i] - 1));
-  }
-  if (error.empty()) return;
-  const auto middle = error.begin() + static_cast<std::ptrdiff_t>(error.size() / 2);
-  std::nth_element(error.begin(), middle, error.end());
-  report.volumeErrorMedian = *middle;
-  report.volumeErrorMax = *std::max_element(middle, error.end());
+  tbb::parallel_invoke([&] { sumUp(bubbles, report); }, [&] { summariseVolumes(bubbles, report); });
 }
 
 FoamSolver::FoamSolver(FoamParams params) : internals_(std::make_unique<Internals>(std::move(params))) {}
@@ -300,9 +329,8 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("classes");
   s.attraction.compute(s.params, s.next, s.around, liquid, s.topology, s.pull);
   clock.end("attraction");
-  s.integrator.describe(s.around, s.pull, s.next);
-  s.integrator.predict(dt);
-  findNearWalls(liquid, s.around, s.next, s.integrator.reach(dt), s.walls);
+  s.integrator.predict(s.around, s.pull, dt, s.next);
+  s.findReachableWalls(liquid);
   clock.end("predict");
   const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, s.walls, dt);
   clock.end("solve");

@@ -83,32 +83,21 @@ inline double rounded(double x) { return static_cast<float>(x); }
 
 }  // namespace
 
-void Integrator::describe(const Surroundings& around, const Vectors3& attraction, BubbleStore& bubbles) {
+void Integrator::predict(const Surroundings& around, const Vectors3& attraction, double dt,
+                         BubbleStore& bubbles) {
+  constexpr double kNeighbourPush = 1;  // [radii] a neighbour moves a bubble by less within a step
   const std::size_t n = bubbles.size();
-  lone_.resize(n), mass_.resize(n), immersed_.resize(n);
+  lone_.resize(n), mass_.resize(n), immersed_.resize(n), motion_.resize(n), reach_.resize(n);
   forEachIndex(n, [&](std::size_t i) {
     bubbles.wetness[i] = wetnessAt(params_, around.phi[i], bubbles.wetness[i]);
-    lone_[i] = loneBubble(params_, drag_, around, bubbles, i);
-    lone_[i].weight += attraction[i];
-    mass_[i] = lone_[i].mass, immersed_[i] = lone_[i].immersed;
+    LoneBubble& lone = lone_[i] = loneBubble(params_, drag_, around, bubbles, i);
+    lone.weight += attraction[i];
+    mass_[i] = lone.mass, immersed_[i] = lone.immersed;
+    motion_[i] = linearise(lone, predictVelocity(lone, dt), dt);
+    const double speed = std::max(lone.velocity.norm(), motion_[i].velocity.norm());
+    reach_[i] = (1 + kNeighbourPush) * lone.radius + dt * speed;
   });
   contacts_.describe(params_, around, immersed_, bubbles);
-}
-
-void Integrator::predict(double dt) {
-  motion_.resize(lone_.size());
-  forEachIndex(lone_.size(),
-               [&](std::size_t i) { motion_[i] = linearise(lone_[i], predictVelocity(lone_[i], dt), dt); });
-}
-
-std::vector<double> Integrator::reach(double dt) const {
-  constexpr double kNeighbourPush = 1;  // [radii] a neighbour moves a bubble by less within a step
-  std::vector<double> reach(lone_.size());
-  forEachIndex(reach.size(), [&](std::size_t i) {
-    const double speed = std::max(lone_[i].velocity.norm(), motion_[i].velocity.norm());
-    reach[i] = (1 + kNeighbourPush) * lone_[i].radius + dt * speed;
-  });
-  return reach;
 }
 
 SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& topology,

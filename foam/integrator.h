@@ -25,13 +25,11 @@ class Integrator {
  public:
   explicit Integrator(const FoamParams& params) : params_(params), drag_(params), solver_(params.solver) {}
 
-  /// Each bubble's own forces and inertia from the step's start; `attraction` [N] is added to them. Also sets
-  /// the bubbles' wetness and whether they adhere to a solid.
-  void describe(const Surroundings& around, const Vectors3& attraction, BubbleStore& bubbles);
-  /// Moves each bubble alone.
-  void predict(double dt);
-  /// How far from its centre each bubble can meet a wall within the step [m].
-  std::vector<double> reach(double dt) const;
+  /// Each bubble's own forces and inertia from the step's start, `attraction` [N] added to them, and its
+  /// motion alone. Also sets the bubbles' wetness and whether they adhere to a solid.
+  void predict(const Surroundings& around, const Vectors3& attraction, double dt, BubbleStore& bubbles);
+  /// How far from its centre each bubble can meet a wall within the step, as predicted [m].
+  const std::vector<double>& reach() const { return reach_; }
   /// Adds what neighbours do to each other, solves, and leaves the new velocities in velocities().
   /// Throws NumericalFailure if the solve does not reach the tolerance.
   SolveReport couple(const BubbleStore& bubbles, const FoamTopology& topology, const Neighbours& neighbours,
@@ -71,7 +69,7 @@ class Integrator {
   const FoamParams& params_;
   DragLawTable drag_;
   std::vector<LoneBubble> lone_;
-  std::vector<double> mass_, immersed_;
+  std::vector<double> mass_, immersed_, reach_;
   std::vector<LinearMotion> motion_;
   std::vector<PairedBubble> paired_;
   std::vector<CouplingBlock> pairBlock_;

@@ -71,8 +71,8 @@ void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::ve
 
 }  // namespace
 
-void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
-                   const std::vector<double>& reach, std::vector<NearWalls>& walls) {
+void WallSearch::find(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
+                      const std::vector<double>& reach, std::vector<NearWalls>& walls) {
   walls.resize(bubbles.size());
   forEachIndex(walls.size(), [&](std::size_t i) {
     walls[i].count = 0;
@@ -80,11 +80,30 @@ void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, cons
     if (away.norm() == 0) return;
     walls[i].wall[walls[i].count++] = {around.psi[i], away, around.solidVelocity.col(i), around.solid[i]};
   });
-  std::vector<std::size_t> close;
+  findFurther(liquid, around, bubbles, reach, walls);
+}
+
+void WallSearch::findAgain(const LiquidSampler& liquid, const Surroundings& around,
+                           const BubbleStore& bubbles, const std::vector<double>& reach,
+                           std::vector<NearWalls>& walls) {
+  for (const std::size_t i : close_) walls[i].count = std::min(walls[i].count, 1);
+  findFurther(liquid, around, bubbles, reach, walls);
+}
+
+/// Finds those beyond the nearest, which are known.
+void WallSearch::findFurther(const LiquidSampler& liquid, const Surroundings& around,
+                             const BubbleStore& bubbles, const std::vector<double>& reach,
+                             std::vector<NearWalls>& walls) {
+  close_.clear();
   for (std::size_t i = 0; i < walls.size(); ++i)
-    if (around.psi[i] < reach[i]) close.push_back(i);
+    if (around.psi[i] < reach[i]) close_.push_back(i);
   for (const Look look : {Look::near, Look::far})
-    for (const int count : {1, 2}) feel(liquid, bubbles, reach, close, count, look, walls);
+    for (const int count : {1, 2}) feel(liquid, bubbles, reach, close_, count, look, walls);
+}
+
+void findNearWalls(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
+                   const std::vector<double>& reach, std::vector<NearWalls>& walls) {
+  WallSearch().find(liquid, around, bubbles, reach, walls);
 }
 
 }  // namespace spume::foam

@@ -26,6 +26,24 @@ struct NearWalls {
   int count = 0;
 };
 
+/// The search below, for one reach after another: what it finds first is kept.
+class WallSearch {
+ public:
+  /// As findNearWalls.
+  void find(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
+            const std::vector<double>& reach, std::vector<NearWalls>& walls);
+  /// Again, for another reach or other radii; `around` and the places are those of the last call of either,
+  /// and `walls` what it has found: the nearest walls are not looked at anew.
+  void findAgain(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
+                 const std::vector<double>& reach, std::vector<NearWalls>& walls);
+
+ private:
+  void findFurther(const LiquidSampler& liquid, const Surroundings& around, const BubbleStore& bubbles,
+                   const std::vector<double>& reach, std::vector<NearWalls>& walls);
+
+  std::vector<std::size_t> close_;  ///< those that may know more than the nearest wall
+};
+
 /// Finds the walls within `reach` [m] of each bubble's centre; the nearest one counts always. The signed
 /// distance knows the nearest only, and a bubble in a corner would be thrown from one wall to the other; so
 /// those near a wall look again from one radius further inside, where the next wall is the nearest, and from

@@ -23,6 +23,13 @@ void forEachIndex(std::size_t n, const Body& body) {
   });
 }
 
+/// Calls body(begin, end) for blocks of [0, n) that together are all of it, in parallel.
+template <typename Body>
+void forEachBlock(std::size_t n, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, kGrain),
+                    [&](const auto& range) { body(range.begin(), range.end()); });
+}
+
 /// Joins value(i) over [0, n) in a tree that depends on n alone, so the bits do not depend on the threads.
 template <typename Value, typename Item, typename Join>
 Value reduceIndices(std::size_t n, const Value& identity, const Item& value, const Join& join) {

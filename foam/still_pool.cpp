@@ -1,10 +1,18 @@
 #include "foam/still_pool.h"
 
+#include "foam/parallel.h"
+
 namespace spume::foam {
 namespace {
 
 /// psi where there is no wall at all: far, yet finite, so that sums stay finite [m].
 constexpr double kNoWall = 1e6;
+
+template <typename Body>
+void forEachPoint(const Points& x, const Body& body) {
+  forEachIndex(static_cast<std::size_t>(x.cols()),
+               [&](std::size_t i) { body(static_cast<Eigen::Index>(i)); });
+}
 
 }  // namespace
 
@@ -23,28 +31,36 @@ StillPool::Wall StillPool::nearestWall(const Eigen::Vector3d& x) const {
 }
 
 void StillPool::phi(Points x, Scalars out) const {
-  out = (x.transpose() * up_).array() - params_.surfaceHeight;
+  forEachPoint(x, [&](Eigen::Index i) { out[i] = x.col(i).dot(up_) - params_.surfaceHeight; });
 }
 
-void StillPool::gradPhi(Points, Vectors out) const { out.colwise() = up_; }
+void StillPool::gradPhi(Points x, Vectors out) const {
+  forEachPoint(x, [&](Eigen::Index i) { out.col(i) = up_; });
+}
 
-void StillPool::velocity(Points, Vectors out) const { out.colwise() = params_.velocity; }
+void StillPool::velocity(Points x, Vectors out) const {
+  forEachPoint(x, [&](Eigen::Index i) { out.col(i) = params_.velocity; });
+}
 
-void StillPool::gradPressure(Points, Vectors out) const {
-  out.colwise() = (params_.density * params_.gravity).eval();
+void StillPool::gradPressure(Points x, Vectors out) const {
+  const Eigen::Vector3d gradient = params_.density * params_.gravity;
+  forEachPoint(x, [&](Eigen::Index i) { out.col(i) = gradient; });
 }
 
 void StillPool::psi(Points x, Scalars out) const {
-  for (Eigen::Index i = 0; i < x.cols(); ++i) out[i] = nearestWall(x.col(i)).distance;
+  forEachPoint(x, [&](Eigen::Index i) { out[i] = nearestWall(x.col(i)).distance; });
 }
 
 void StillPool::gradPsi(Points x, Vectors out) const {
-  out.setZero();
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
+  forEachPoint(x, [&](Eigen::Index i) {
+    out.col(i).setZero();
     if (const Wall wall = nearestWall(x.col(i)); wall.axis >= 0) out(wall.axis, i) = wall.sign;
+  });
 }
 
-void StillPool::solidVelocity(Points, Vectors out) const { out.setZero(); }
+void StillPool::solidVelocity(Points x, Vectors out) const {
+  forEachPoint(x, [&](Eigen::Index i) { out.col(i).setZero(); });
+}
 
 void StillPool::solidIndex(Points, Indices out) const { out.setConstant(-1); }
 

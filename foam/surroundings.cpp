@@ -1,15 +1,18 @@
 #include "foam/surroundings.h"
 
+#include <functional>
 #include <string>
 
 #include "foam/errors.h"
+#include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
 
 template <typename Field>
 void requireFinite(const Field& field, const char* name) {
-  if (!field.allFinite())
+  const auto isFinite = [&](std::size_t i) { return field.col(static_cast<Eigen::Index>(i)).allFinite(); };
+  if (!reduceIndices(static_cast<std::size_t>(field.cols()), true, isFinite, std::logical_and<>()))
     throw NumericalFailure(std::string("the liquid sampler returned a ") + name + " that is not finite");
 }
 
@@ -32,7 +35,7 @@ void Surroundings::sampleFlow(const LiquidSampler& liquid, Points x) {
   if (n == 0) return;
   liquid.phi(x, phi);
   liquid.velocity(x, liquidVelocity);
-  requireFinite(phi, "phi"), requireFinite(liquidVelocity, "velocity");
+  requireFinite(phi.transpose(), "phi"), requireFinite(liquidVelocity, "velocity");
 }
 
 void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
@@ -43,7 +46,8 @@ void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
   liquid.gradPsi(x, gradPsi);
   liquid.solidVelocity(x, solidVelocity);
   liquid.solidIndex(x, solid);
-  requireFinite(psi, "psi"), requireFinite(gradPsi, "gradPsi"), requireFinite(solidVelocity, "solidVelocity");
+  requireFinite(psi.transpose(), "psi"), requireFinite(gradPsi, "gradPsi"),
+      requireFinite(solidVelocity, "solidVelocity");
 }
 
 }  // namespace spume::foam

@@ -59,10 +59,9 @@ inline SolveReport coupleOnce(Integrator& integrator, const StillPool& pool, dou
   Neighbours neighbours;
   neighbours.build(bubbles.size(), topology.overlaps);
   weighSurface(around, topology, neighbours, bubbles);
-  integrator.describe(around, Vectors3(bubbles.size(), Eigen::Vector3d::Zero()), bubbles);
-  integrator.predict(dt);
+  integrator.predict(around, Vectors3(bubbles.size(), Eigen::Vector3d::Zero()), dt, bubbles);
   std::vector<NearWalls> walls;
-  findNearWalls(pool, around, bubbles, integrator.reach(dt), walls);
+  findNearWalls(pool, around, bubbles, integrator.reach(), walls);
   return integrator.couple(bubbles, topology, neighbours, walls, dt);
 }
 

@@ -37,6 +37,25 @@ TEST(NearWalls, ABubbleSeesAllItMayReachThoughAnotherIsFarNearer) {
   EXPECT_EQ(wallsOf(edge(), x, 2.9 * kRadius).count, 1) << "what it cannot reach does not count";
 }
 
+/// From a reach that sees the second wall to one that does not, and back.
+TEST(NearWalls, AnotherReachLeavesNothingOfTheLastOneBehind) {
+  const StillPool pool = edge();
+  BubbleStore bubbles;
+  bubbles.add(bubbleAt({0, 1.5 * kRadius, 3 * kRadius}, kRadius));
+  Surroundings around;
+  around.sample(pool, bubbles.positions());
+  WallSearch search;
+  std::vector<NearWalls> walls;
+  search.find(pool, around, bubbles, {3.5 * kRadius}, walls);
+  ASSERT_EQ(walls[0].count, 2);
+  for (const double reach : {2.9, 3.5, 1.0, 3.5}) {
+    search.findAgain(pool, around, bubbles, {reach * kRadius}, walls);
+    const NearWalls fresh = wallsOf(pool, bubbles.position[0], reach * kRadius);
+    ASSERT_EQ(walls[0].count, fresh.count) << reach;
+    for (int k = 0; k < fresh.count; ++k) EXPECT_EQ(walls[0].wall[k].psi, fresh.wall[k].psi) << reach;
+  }
+}
+
 TEST(NearWalls, NothingIsSeenFromBehindTheOppositePlate) {
   StillPoolParams plates;
   plates.lower = {-1e3, 0, -1e3}, plates.upper = {1e3, 6 * kRadius, 1e3};
