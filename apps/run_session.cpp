@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -20,18 +19,14 @@
 #include "coupling/scene_builder.h"
 #include "coupling/scene_lint.h"
 #include "coupling/statistics.h"
+#include "coupling/stopwatch.h"
 
 namespace spume::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using coupling::FrameReport;
 using coupling::Simulation;
 using coupling::StepReport;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One run on one folder. The members are built in order: nothing is written before the scene proved sound.
 class Session {
@@ -49,7 +44,7 @@ class Session {
   void finish();
 
   const SessionOptions& options_;
-  const Clock::time_point start_ = Clock::now();
+  const coupling::Stopwatch watch_;
   coupling::RunFolder folder_;
   const coupling::FolderLock lock_;
   std::unique_ptr<Simulation> simulation_;
@@ -118,7 +113,7 @@ void Session::begin() {
 }
 
 void Session::advance(Progress& progress, const StopRequest& stop) {
-  const Clock::time_point start = Clock::now();
+  const coupling::Stopwatch watch;
   const int frame = simulation_->frame() + 1;
   FrameReport report = simulation_->advanceFrame([&](const StepReport& step) {
     statistics_->add(step);
@@ -134,7 +129,7 @@ void Session::advance(Progress& progress, const StopRequest& stop) {
   coupling::accumulate(summary_, report);
   writeFrame(folder_, *simulation_);
   if (finished() || simulation_->frame() % options_.scene.output.checkpointEvery == 0) writeCheckpoint();
-  progress.frame(report, secondsSince(start));
+  progress.frame(report, watch.seconds());
 }
 
 void Session::writeCheckpoint() {
@@ -144,7 +139,7 @@ void Session::writeCheckpoint() {
 
 void Session::writeSummary(const std::string& status) {
   summary_.status = status;
-  summary_.wallSeconds = secondsSince(start_);
+  summary_.wallSeconds = watch_.seconds();
   summary_.bubbles = simulation_->bubbles().size();
   coupling::writeRunJson(folder_.runJson(), options_.scene, summary_);
 }
@@ -159,7 +154,7 @@ void Session::finish() {
   const std::string problem = coupling::volumeWarning(summary_, simulation_->liquid().grid.cellVolume());
   if (!problem.empty()) log_->say("warning: " + problem);
   log_->say("done: frame " + std::to_string(simulation_->frame()) + " after " +
-            formatDuration(secondsSince(start_)) + ", " + std::to_string(simulation_->bubbles().size()) +
+            formatDuration(watch_.seconds()) + ", " + std::to_string(simulation_->bubbles().size()) +
             " bubbles; see " + folder_.root());
 }
 

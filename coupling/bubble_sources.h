@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "coupling/domain_box.h"
 #include "coupling/scene.h"
 #include "foam/bubble_store.h"
 #include "foam/liquid_sampler.h"
@@ -40,7 +41,7 @@ class BubbleSources {
   double drawRadius(std::size_t source, std::uint64_t birth) const;
 
   std::vector<BubbleSourceSpec> specs_;
-  Eigen::Vector3d lower_, upper_;  ///< of the domain [m]
+  const DomainBox domain_;
   std::uint64_t seed_;
 };
 

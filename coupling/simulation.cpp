@@ -1,15 +1,16 @@
 #include "coupling/simulation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "coupling/domain_box.h"
 #include "coupling/foam_objects.h"
 #include "coupling/liquid_part.h"
 #include "coupling/momentum_exchange.h"
 #include "coupling/probes.h"
+#include "coupling/stopwatch.h"
 #include "coupling/time_step.h"
 #include "fluid/errors.h"
 #include "foam/errors.h"
@@ -23,15 +24,6 @@ constexpr int kMaxHalvings = 4;
 
 /// Steps that fill an interval up to round-off must not be given one more.
 constexpr double kRoundOff = 1e-9;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 /// Adds the times of `spent` to those of the same stages in `now`.
 void addStageTimes(const std::vector<foam::FoamStageTime>& spent, std::vector<foam::FoamStageTime>& now) {
@@ -64,6 +56,7 @@ Event foamEvent(const foam::FoamEvent& happened, double time) {
 struct Simulation::Internals {
   Internals(const Scene& s, std::unique_ptr<LiquidPart> part)
       : scene(s),
+        domain(s),
         liquid(std::move(part)),
         foam(foamParamsOf(s)),
         entrainment(s.coupling.entrainment, s.dx(), s.seed),
@@ -71,6 +64,7 @@ struct Simulation::Internals {
         probes(s) {}
 
   const Scene scene;
+  const DomainBox domain;
   const std::unique_ptr<LiquidPart> liquid;
   foam::FoamSolver foam;
   Entrainment entrainment;
@@ -198,13 +192,10 @@ void Simulation::Internals::takeFoamEvents(foam::FoamStepReport& happened, StepR
 }
 
 void Simulation::Internals::removeLeavers(StepReport& report) {
-  const Eigen::Vector3d lower = scene.domain.lower, upper = lower + scene.domain.size;
   std::vector<std::uint8_t> gone(bubbles.size(), 0);
   bool any = false;
   for (std::size_t b = 0; b < bubbles.size(); ++b) {
-    const double r = bubbles.radius[b];
-    const Eigen::Vector3d& x = bubbles.position[b];
-    if ((x.array() > lower.array() - r).all() && (x.array() < upper.array() + r).all()) continue;
+    if (domain.reaches(bubbles.position[b], bubbles.radius[b])) continue;
     gone[b] = 1;
     any = true;
     gas.left += bubbles.gas[b];

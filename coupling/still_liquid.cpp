@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "coupling/domain_box.h"
 #include "coupling/shapes.h"
 #include "foam/parallel.h"
 
@@ -17,8 +18,9 @@ foam::StillPoolParams poolOf(const Scene& scene) {
   pool.gravity = scene.liquid.gravity;
   pool.density = scene.liquid.density;
   pool.surfaceHeight = scene.stillPool.level;
-  pool.lower = scene.domain.lower;
-  pool.upper = gridOf(scene).upper();
+  const DomainBox domain(scene);
+  pool.lower = domain.lower;
+  pool.upper = domain.upper;
   pool.closed = scene.domain.closed;
   return pool;
 }
