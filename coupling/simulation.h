@@ -57,6 +57,8 @@ struct SimulationState {
   double foamDt = std::numeric_limits<double>::infinity();  ///< longest next step the foam asked for [s]
 };
 
+struct SharedStages;
+
 /// Liquid and foam of one scene, advanced together.
 class Simulation {
  public:
@@ -85,8 +87,7 @@ class Simulation {
   SimulationState state() const;
 
  private:
-  struct Internals;
-  std::unique_ptr<Internals> internals_;
+  std::unique_ptr<SharedStages> stages_;
 };
 
 }  // namespace spume::coupling
