@@ -153,6 +153,8 @@ void Session::finish() {
   writeSummary("done");
   const std::string problem = coupling::volumeWarning(summary_, simulation_->liquid().grid.cellVolume());
   if (!problem.empty()) log_->say("warning: " + problem);
+  for (const std::string& warning : coupling::unplacedWarnings(options_.scene, simulation_->supply().sources))
+    log_->say("warning: " + warning);
   log_->say("done: frame " + std::to_string(simulation_->frame()) + " after " +
             formatDuration(watch_.seconds()) + ", " + std::to_string(simulation_->bubbles().size()) +
             " bubbles; see " + folder_.root());

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "coupling/clearance_grid.h"
+#include "coupling/object_label.h"
 #include "coupling/shapes.h"
 #include "foam/counter_random.h"
 #include "foam/volume_correction.h"
@@ -17,8 +18,7 @@ constexpr std::uint64_t kTimePurpose = 0x736f757263650002;
 constexpr std::uint64_t kRadiusPurpose = 0x736f757263650003;
 constexpr std::uint64_t kPlacePurpose = 0x736f757263650004;
 
-/// Places a bubble may choose from: with half of the region covered all are only once in 65 000.
-constexpr int kPlaces = 16;
+constexpr int kPlaces = BubbleSources::kPlaces;
 /// Points drawn in the box of a region for them: enough for a shape that fills a fiftieth of its box.
 constexpr int kDraws = 50 * kPlaces;
 
@@ -115,10 +115,9 @@ std::vector<BubbleSources::Due> BubbleSources::dueUntil(std::size_t source, doub
   }
 }
 
-std::vector<Blown> BubbleSources::step(double to, const foam::LiquidSampler& liquid,
-                                       const foam::BubbleStore& bubbles,
-                                       std::vector<SourceProgress>& progress) const {
-  std::vector<Blown> blown;
+BlownStep BubbleSources::step(double to, const foam::LiquidSampler& liquid, const foam::BubbleStore& bubbles,
+                              std::vector<SourceProgress>& progress) const {
+  BlownStep blown;
   progress.resize(specs_.size());
   for (std::size_t s = 0; s < specs_.size(); ++s) {
     const std::vector<Due> due = dueUntil(s, to, progress[s]);
@@ -128,10 +127,29 @@ std::vector<Blown> BubbleSources::step(double to, const foam::LiquidSampler& liq
       foam::NewBubble bubble{
           {0, 0, 0}, specs_[s].velocity, one.radius, foam::BubbleClass::liquid, specs_[s].wetness};
       const foam::CounterRandom random(streamOf(seed_, s), one.birth, kPlacePurpose);
-      if (region.place(one.radius, random, bubble.position)) blown.push_back({bubble, static_cast<int>(s)});
+      if (region.place(one.radius, random, bubble.position)) {
+        blown.bubbles.push_back({bubble, static_cast<int>(s)});
+      } else {
+        ++progress[s].unplaced;
+        blown.unplacedGas += foam::ballVolume(one.radius);
+      }
     }
   }
   return blown;
+}
+
+std::vector<std::string> unplacedWarnings(const Scene& scene, const std::vector<SourceProgress>& progress) {
+  std::vector<std::string> warnings;
+  for (std::size_t s = 0; s < progress.size(); ++s) {
+    const BubbleSourceSpec& spec = scene.bubbleSources[s];
+    if (progress[s].unplaced == 0) continue;
+    warnings.push_back(objectLabel("bubble_source", spec.name, s) + ": " +
+                       std::to_string(progress[s].unplaced) + " of its " +
+                       std::to_string(progress[s].births) + " bubbles found no place outside solids" +
+                       (spec.immersed ? " in the liquid" : "") +
+                       " and were left out; source_unplaced in steps.csv says when");
+  }
+  return warnings;
 }
 
 }  // namespace spume::coupling

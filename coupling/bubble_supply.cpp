@@ -69,7 +69,9 @@ void BubbleSupply::removeInRegions(double now, foam::BubbleStore& bubbles, GasLe
 
 void BubbleSupply::blow(double now, const foam::LiquidSampler& liquid, foam::BubbleStore& bubbles,
                         SupplyState& state, GasLedger& gas, Events& events) const {
-  for (const Blown& blown : sources_.step(now, liquid, bubbles, state.sources))
+  const BlownStep step = sources_.step(now, liquid, bubbles, state.sources);
+  gas.unplaced += step.unplacedGas;
+  for (const Blown& blown : step.bubbles)
     gas.bornSources += addBubble(blown.bubble, EventCause::source, blown.source, now, bubbles, events);
 }
 

@@ -67,18 +67,6 @@ void checkRegion(const ShapeSpec& shape, const DomainBox& domain, const std::str
   domain.requireOverlap(shape, object);
 }
 
-bool hasRoom(const ShapeSpec& shape, const DomainBox& domain, const SignedDistance& psi) {
-  const auto [lower, upper] = bounds(shape);
-  const Eigen::Vector3d low = lower.cwiseMax(domain.lower), size = upper.cwiseMin(domain.upper) - low;
-  foam::CounterRandom random(0, 0, kProbePurpose);
-  for (int n = 0; n < kRoomProbes; ++n) {
-    const Eigen::Array3d place(random.uniform(), random.uniform(), random.uniform());
-    const Eigen::Vector3d x = low + (place * size.array()).matrix();
-    if (signedDistance(shape, x) <= 0 && psi(x) > 0) return true;
-  }
-  return false;
-}
-
 /// A gap may be narrower than a bubble, which it squeezes; a domain none of whose edges it fits into is a
 /// slip of the unit.
 void checkSource(const BubbleSourceSpec& source, const DomainBox& domain, const SignedDistance& psi,
@@ -88,7 +76,7 @@ void checkSource(const BubbleSourceSpec& source, const DomainBox& domain, const 
   if (2 * most > longest)
     throw SceneError(object + ": max_radius = " + exactText(most) +
                      " m: such a bubble is larger than the domain; at most " + exactText(longest / 2) + " m");
-  if (!hasRoom(source.shape, domain, psi)) {
+  if (roomShare(source.shape, domain, psi) == 0) {
     const auto [lower, upper] = bounds(source.shape);
     throw SceneError(object + ": all of it is inside a solid, around " + rounded((lower + upper) / 2) +
                      " m; move the source or the solid");
@@ -124,6 +112,21 @@ std::vector<foam::NucleationParams> nucleationParamsOf(const Scene& scene) {
     all.push_back(params);
   }
   return all;
+}
+
+double roomShare(const ShapeSpec& shape, const DomainBox& domain, const SignedDistance& psi) {
+  const auto [lower, upper] = bounds(shape);
+  const Eigen::Vector3d low = lower.cwiseMax(domain.lower), size = upper.cwiseMin(domain.upper) - low;
+  foam::CounterRandom random(0, 0, kProbePurpose);
+  int inside = 0, clear = 0;
+  for (int n = 0; n < kRoomProbes; ++n) {
+    const Eigen::Array3d place(random.uniform(), random.uniform(), random.uniform());
+    const Eigen::Vector3d x = low + (place * size.array()).matrix();
+    if (signedDistance(shape, x) > 0) continue;
+    ++inside;
+    clear += psi(x) > 0;
+  }
+  return inside > 0 ? static_cast<double>(clear) / inside : 0;
 }
 
 void checkFoamObjects(const Scene& scene) {

@@ -81,6 +81,7 @@ JsonObject gasTotals(const GasLedger& gas) {
       .add("killed", gas.killed)
       .add("left", gas.left)
       .add("not_entrained", gas.notEntrained)
+      .add("unplaced", gas.unplaced)
       .add("in_bubbles", gas.inBubbles)
       .add("in_reservoirs", gas.inReservoirs)
       .add("imbalance", gas.imbalance());

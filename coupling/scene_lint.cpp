@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "coupling/bubble_sources.h"
 #include "coupling/domain_box.h"
 #include "coupling/finding_list.h"
 #include "coupling/foam_objects.h"
@@ -25,6 +26,7 @@ constexpr double kBubblesPerBlock = 0.125;  // gas of a typical bubble over the 
 constexpr double kCrowd = 20;               // gas of the first bubbles over the room they share
 constexpr double kManySites = 1e6;          // of nucleation that are slow to make
 constexpr double kGentleImpact = 0.2;       // below this even landing drops and soft jets entrain [m/s]
+constexpr double kLeastRoom = 0.5;          // of a source outside solids: most of it
 constexpr double kDryShare = 1e-4;          // smallest share of air in the domain that is worth running
 
 class Linter {
@@ -119,11 +121,25 @@ class Linter {
       if (scene_.bubbleSources[i].start >= end)
         findings_.note(objectLabel("bubble_source", scene_.bubbleSources[i].name, i), "starts at ",
                        scene_.bubbleSources[i].start, " s, after the last frame");
+    lintSourceRooms();
     for (std::size_t i = 0; i < scene_.nucleation.size(); ++i) lintNucleation(i);
     const double saturation = scene_.dissolvedGas.henry * scene_.dissolvedGas.pressure;
     if (scene_.dissolvedGas.enabled && scene_.dissolvedGas.concentration < saturation)
       findings_.note("dissolved_gas.concentration", scene_.dissolvedGas.concentration,
                      " mol/m^3 is under the saturation of ", saturation, ": bubbles shrink");
+  }
+
+  /// A bubble of which all places that are drawn lie in solids is left out.
+  void lintSourceRooms() {
+    if (scene_.solids.empty() || scene_.bubbleSources.empty()) return;
+    const SignedDistance psi = solidDistance(scene_);
+    for (std::size_t i = 0; i < scene_.bubbleSources.size(); ++i) {
+      const double free = roomShare(scene_.bubbleSources[i].shape, domain_, psi);
+      if (free < kLeastRoom)
+        findings_.warn(objectLabel("bubble_source", scene_.bubbleSources[i].name, i), "has only ", 100 * free,
+                       " % of its region outside solids: ", 100 * std::pow(1 - free, BubbleSources::kPlaces),
+                       " % of its bubbles will find no place and be left out; move it or the solid");
+    }
   }
 
   /// A bubble that a solid holds and that does not grow blocks its site for ever.

@@ -109,6 +109,7 @@ void SharedStages::supplyBubbles(double dt, StepReport& report) {
                             report.liquid.drained};
   supplier.step(report.time, dt, *liquid->sampler(), change, state.bubbles, state.supply, state.gas,
                 report.events);
+  for (const SourceProgress& source : state.supply.sources) report.sourceUnplaced += source.unplaced;
   report.gasInSolution = state.supply.dissolved;
   report.secondsSupply = watch.seconds();
 }

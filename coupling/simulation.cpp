@@ -89,6 +89,7 @@ const fluid::LiquidState& Simulation::liquid() const { return stages_->liquid->s
 const fluid::SolidBoundary& Simulation::solids() const { return stages_->liquid->solids(); }
 std::unique_ptr<foam::LiquidSampler> Simulation::fields() const { return stages_->liquid->sampler(); }
 const foam::BubbleStore& Simulation::bubbles() const { return stages_->state.bubbles; }
+const SupplyState& Simulation::supply() const { return stages_->state.supply; }
 const foam::FoamTopology& Simulation::topology() const { return stages_->foam.topology(); }
 const std::vector<std::uint64_t>& Simulation::topologyIds() const { return stages_->foam.topologyIds(); }
 

@@ -29,6 +29,7 @@ struct StepReport {
   double poured = 0, drained = 0;      ///< totals since the start [m^3]
   double immersedGas = 0;              ///< [m^3]
   std::size_t births = 0, bursts = 0;  ///< in this step
+  std::uint64_t sourceUnplaced = 0;    ///< bubbles of sources that found no place, since the start
   double gasInSolution = 0;            ///< where it is followed, at the pressure of the air [m^3]
   double secondsLiquid = 0, secondsEntrainment = 0, secondsSupply = 0, secondsFoam = 0;
   std::vector<Event> events;
@@ -82,6 +83,7 @@ class Simulation {
   /// What the foam asks of the liquid and the solids now; to be used before the next step.
   std::unique_ptr<foam::LiquidSampler> fields() const;
   const foam::BubbleStore& bubbles() const;
+  const SupplyState& supply() const;
   const foam::FoamTopology& topology() const;  ///< row k is the bubble topologyIds()[k]
   const std::vector<std::uint64_t>& topologyIds() const;
   SimulationState state() const;
