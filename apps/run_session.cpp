@@ -39,7 +39,10 @@ class Session {
   void recall(int step, int frame);
   void begin();
   void advance(Progress& progress, const StopRequest& stop);
+  template <typename Rows>
+  void addRows(const Rows& report);
   void writeCheckpoint();
+  void leaveCheckpoint();
   void writeSummary(const std::string& status);
   void finish();
 
@@ -51,6 +54,8 @@ class Session {
   std::unique_ptr<coupling::StatisticsWriter> statistics_;
   std::unique_ptr<Log> log_;
   coupling::RunSummary summary_;
+  int written_ = 0;                ///< last frame whose files are whole: only then it is done
+  bool rowsWhole_ = true;          ///< the tables have a row of every step taken
   std::vector<StepReport> begun_;  ///< steps a resumed run has behind it of the frame it goes on in
 };
 
@@ -68,7 +73,7 @@ Session::Session(const SessionOptions& options)
   int step = 0, frame = 0;
   if (loaded) {
     step = loaded->state.step;
-    frame = loaded->state.frame;
+    frame = written_ = loaded->state.frame;
     simulation_ = std::make_unique<Simulation>(options.scene, std::move(loaded->state));
   } else {
     simulation_ = std::make_unique<Simulation>(options.scene);
@@ -116,7 +121,7 @@ void Session::advance(Progress& progress, const StopRequest& stop) {
   const coupling::Stopwatch watch;
   const int frame = simulation_->frame() + 1;
   FrameReport report = simulation_->advanceFrame([&](const StepReport& step) {
-    statistics_->add(step);
+    addRows(step);
     progress.step(frame, step);
     if (step.halvings > 0)
       log_->write("step " + std::to_string(step.step) + ": halved " + std::to_string(step.halvings) +
@@ -125,16 +130,39 @@ void Session::advance(Progress& progress, const StopRequest& stop) {
   });
   report.steps.insert(report.steps.begin(), begun_.begin(), begun_.end());
   begun_.clear();
-  statistics_->add(report);
-  coupling::accumulate(summary_, report);
   writeFrame(folder_, *simulation_);
+  addRows(report);
+  written_ = frame;
+  coupling::accumulate(summary_, report);
   if (finished() || simulation_->frame() % options_.scene.output.checkpointEvery == 0) writeCheckpoint();
   progress.frame(report, watch.seconds());
 }
 
+/// Until its rows are in the tables nobody may go on from after a step or a frame.
+template <typename Rows>
+void Session::addRows(const Rows& report) {
+  rowsWhole_ = false;
+  statistics_->add(report);
+  rowsWhole_ = true;
+}
+
+/// A frame that could not be written is taken up again at its end, without a step, to be written.
 void Session::writeCheckpoint() {
-  coupling::writeCheckpoint(folder_.checkpoints(), options_.scene, simulation_->state());
+  coupling::SimulationState state = simulation_->state();
+  state.frame = written_;
+  coupling::writeCheckpoint(folder_.checkpoints(), options_.scene, state);
   writeSummary("running");
+}
+
+/// Of a run that failed: its state is that between two steps, as a failed step takes itself back.
+void Session::leaveCheckpoint() {
+  if (!rowsWhole_) return;
+  try {
+    writeCheckpoint();
+    writeSummary("failed");
+  } catch (const std::exception& error) {  // the same full disk or lack of memory, like as not
+    log_->write(std::string("no checkpoint: ") + error.what());
+  }
 }
 
 void Session::writeSummary(const std::string& status) {
@@ -177,13 +205,9 @@ ExitCode Session::run() {
     log_->say(std::string(stopped.what()) + " in frame " + std::to_string(simulation_->frame() + 1) + "; " +
               wayOn(options_.restart) + " from the checkpoint");
     return stopped.code();
-  } catch (const coupling::FileError& error) {
+  } catch (const std::exception& error) {
     log_->write(error.what());
-    throw;
-  } catch (const std::exception& error) {  // the failed step left the state as it was
-    writeCheckpoint();
-    writeSummary("failed");
-    log_->write(error.what());
+    leaveCheckpoint();
     throw;
   }
   finish();

@@ -71,6 +71,7 @@ void SharedStages::stepLiquid(double dt, StepReport& report) {
   const fluid::ImmersedGas immersed = immersedGas();
   for (const double volume : immersed.volume) report.immersedGas += volume;
   report.liquid = liquid->step(dt, immersed, state.pushes);
+  liquidHasMoved_ = true;
   report.secondsLiquid = watch.seconds();
 }
 
@@ -184,6 +185,7 @@ StepReport SharedStages::attempt(double dt) {
   report.step = state.step + 1;
   report.dt = dt;
   report.time = state.time + dt;
+  liquidHasMoved_ = false;
   if (state.step == 0) reportFirstBubbles(report);
   stepLiquid(dt, report);
   entrain(report);
@@ -193,6 +195,11 @@ StepReport SharedStages::attempt(double dt) {
   book(dt, report);
   report.probes = probes.read(*liquid);
   return report;
+}
+
+void SharedStages::rollBack(const SimulationState& start) {
+  if (std::exchange(liquidHasMoved_, false)) liquid->rollBack();
+  state = start;
 }
 
 }  // namespace spume::coupling

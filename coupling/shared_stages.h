@@ -25,6 +25,8 @@ struct SharedStages {
 
   /// One step of dt [s], stage by stage. Where it throws the state is left in between.
   StepReport attempt(double dt);
+  /// Takes the last attempt back, wherever it threw, to `start`, the state it began with.
+  void rollBack(const SimulationState& start);
 
  private:
   void stepLiquid(double dt, StepReport& report);
@@ -37,6 +39,8 @@ struct SharedStages {
   void removeLeavers(StepReport& report);
   void book(double dt, StepReport& report);
   fluid::ImmersedGas immersedGas() const;
+
+  bool liquidHasMoved_ = false;  ///< in the last attempt
 };
 
 }  // namespace spume::coupling

@@ -18,8 +18,10 @@ constexpr int kMaxHalvings = 4;
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene)
-    : stages_(std::make_unique<SharedStages>(scene, makeLiquid(scene))) {
+Simulation::Simulation(const Scene& scene) : Simulation(scene, makeLiquid(scene)) {}
+
+Simulation::Simulation(const Scene& scene, std::unique_ptr<LiquidPart> liquid)
+    : stages_(std::make_unique<SharedStages>(scene, std::move(liquid))) {
   SimulationState& state = stages_->state;
   state.bubbles = initialBubbles(scene);
   for (const double gas : state.bubbles.gas) state.gas.bornSources += gas;
@@ -44,11 +46,14 @@ StepReport Simulation::step(double dt) {
       report.halvings = halvings;
       return report;
     } catch (const fluid::NumericalFailure&) {
+      s.rollBack(start);
       if (halvings == kMaxHalvings) throw;
     } catch (const foam::NumericalFailure&) {
-      s.liquid->rollBack();
-      s.state = start;
+      s.rollBack(start);
       if (halvings == kMaxHalvings) throw;
+    } catch (...) {  // out of memory, a file of a cached liquid: no shorter step would help
+      s.rollBack(start);
+      throw;
     }
     dt /= 2;
   }

@@ -58,6 +58,7 @@ struct SimulationState {
   double foamDt = std::numeric_limits<double>::infinity();  ///< longest next step the foam asked for [s]
 };
 
+class LiquidPart;
 struct SharedStages;
 
 /// Liquid and foam of one scene, advanced together.
@@ -65,12 +66,14 @@ class Simulation {
  public:
   /// Throws InvalidParameter of either module, or SceneError.
   explicit Simulation(const Scene& scene);
+  /// The same with a liquid of the caller's own in place of the scene's.
+  Simulation(const Scene& scene, std::unique_ptr<LiquidPart> liquid);
   /// Continues from a checkpoint of the same scene.
   Simulation(const Scene& scene, SimulationState state);
   ~Simulation();
 
-  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. A step that fails
-  /// leaves the state as it was; dt is halved up to 4 times before NumericalFailure is thrown.
+  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. dt is halved
+  /// up to 4 times before NumericalFailure is thrown. Whatever is thrown, the state is as it was before.
   StepReport step(double dt);
   /// Steps that sum exactly to the next frame's time. `onStep` is called after each.
   FrameReport advanceFrame(const std::function<void(const StepReport&)>& onStep = {});
