@@ -20,6 +20,7 @@
 #include "coupling/scene_lint.h"
 #include "coupling/statistics.h"
 #include "coupling/stopwatch.h"
+#include "coupling/unfinished_run.h"
 
 namespace spume::apps {
 namespace {
@@ -71,13 +72,16 @@ Session::Session(const SessionOptions& options)
   std::optional<coupling::LoadedCheckpoint> loaded;
   if (!options.restart) loaded = coupling::readNewestCheckpoint(folder_.checkpoints(), options.scene);
   int step = 0, frame = 0;
+  using enum coupling::Beginning;
+  coupling::Beginning beginning = afresh;
   if (loaded) {
     step = loaded->state.step;
     frame = written_ = loaded->state.frame;
     simulation_ = std::make_unique<Simulation>(options.scene, std::move(loaded->state));
   } else {
+    if (!options.restart) beginning = coupling::beginningIn(folder_, options.scene);
     simulation_ = std::make_unique<Simulation>(options.scene);
-    folder_.clear();
+    if (beginning == afresh) folder_.clear();
   }
   summary_.threads = options.threads;
   summary_.switchedOff = coupling::switchedOff(options.scene);
@@ -87,6 +91,7 @@ Session::Session(const SessionOptions& options)
     for (const std::string& warning : loaded->warnings) log_->say("warning: " + warning);
     if (!finished()) log_->say("going on from " + loaded->path);
   }
+  if (beginning == again) log_->say("no checkpoint yet: begins again at the first frame");
   folder_.writeScene(options.scene);
   recall(step, frame);
   statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame,
