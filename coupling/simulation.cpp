@@ -1,6 +1,7 @@
 #include "coupling/simulation.h"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "coupling/foam_objects.h"
@@ -15,6 +16,16 @@ namespace {
 
 /// A step that keeps failing at a sixteenth of its length will not be saved by a smaller one.
 constexpr int kMaxHalvings = 4;
+
+/// A module's failure with what only the shared step knows: the last, shortest try of a step that began at
+/// `start`.
+template <typename Failure>
+[[noreturn]] void giveUp(const SimulationState& start, double dt, const Failure& failure) {
+  std::ostringstream message;
+  message << "step " << start.step + 1 << " from t = " << start.time << " s failed, halved " << kMaxHalvings
+          << " times to dt = " << dt << " s: " << failure.what();
+  throw Failure(message.str());
+}
 
 }  // namespace
 
@@ -45,12 +56,12 @@ StepReport Simulation::step(double dt) {
       StepReport report = s.attempt(dt);
       report.halvings = halvings;
       return report;
-    } catch (const fluid::NumericalFailure&) {
+    } catch (const fluid::NumericalFailure& failure) {
       s.rollBack(start);
-      if (halvings == kMaxHalvings) throw;
-    } catch (const foam::NumericalFailure&) {
+      if (halvings == kMaxHalvings) giveUp(start, dt, failure);
+    } catch (const foam::NumericalFailure& failure) {
       s.rollBack(start);
-      if (halvings == kMaxHalvings) throw;
+      if (halvings == kMaxHalvings) giveUp(start, dt, failure);
     } catch (...) {  // out of memory, a file of a cached liquid: no shorter step would help
       s.rollBack(start);
       throw;

@@ -9,6 +9,7 @@
 #include "foam/border_drift.h"
 #include "foam/classification.h"
 #include "foam/errors.h"
+#include "foam/failure_text.h"
 #include "foam/integrator.h"
 #include "foam/kept_geometry.h"
 #include "foam/lifetime.h"
@@ -39,23 +40,27 @@ constexpr double kFewCells = 0.05, kFewAtFirst = 0.01;
 /// are implicit and stop them within a step of any length; a froth that moves as a whole is more than these.
 constexpr double kArrivals = 0.05;
 
-void requireUsable(const BubbleStore& bubbles, double dt) {
-  if (!(dt > 0) || !std::isfinite(dt))
-    throw InvalidParameter("foam step: dt = " + std::to_string(dt) + " s; it must be positive and finite");
-  for (std::size_t i = 0; i < bubbles.size(); ++i) {
-    const bool finite = bubbles.position[i].allFinite() && bubbles.velocity[i].allFinite() &&
-                        std::isfinite(bubbles.radius[i]) && std::isfinite(bubbles.gas[i]);
-    if (!finite || bubbles.radius[i] <= 0 || bubbles.gas[i] <= 0)
-      throw NumericalFailure("foam: bubble " + std::to_string(bubbles.id[i]) +
-                             " has a position, velocity, radius or gas that is not finite, or no size");
-  }
+/// What a step cannot begin or end with; empty where the bubble is sound.
+std::string defectOf(const BubbleStore& bubbles, std::size_t i) {
+  const double r = bubbles.radius[i], gas = bubbles.gas[i];
+  if (!bubbles.position[i].allFinite()) return "its place is not finite";
+  if (!bubbles.velocity[i].allFinite())
+    return joined("its velocity of ", textOf(bubbles.velocity[i]), " m/s is not finite");
+  if (!(r > 0) || !std::isfinite(r)) return joined("its radius of ", r, " m is not positive and finite");
+  if (!(gas > 0) || !std::isfinite(gas)) return joined("its gas of ", gas, " m^3 is not positive and finite");
+  return {};
 }
 
-void requireFinite(const BubbleStore& bubbles) {
+void requireSound(const BubbleStore& bubbles, const char* when, double dt) {
   for (std::size_t i = 0; i < bubbles.size(); ++i)
-    if (!bubbles.position[i].allFinite() || !bubbles.velocity[i].allFinite())
-      throw NumericalFailure("foam: the step left bubble " + std::to_string(bubbles.id[i]) +
-                             " without a finite place");
+    if (const std::string defect = defectOf(bubbles, i); !defect.empty())
+      throw NumericalFailure(joined("foam: ", placeOf(bubbles, i), " ", when, " of ", dt, " s: ", defect));
+}
+
+void requireUsable(const BubbleStore& bubbles, double dt) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw InvalidParameter(joined("foam step: dt = ", dt, " s; it must be positive and finite"));
+  requireSound(bubbles, "at the start of a step", dt);
 }
 
 }  // namespace
@@ -306,7 +311,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   clock.end("solve");
   s.integrator.advance(dt, s.next);
   s.drift.advance(s.next);
-  requireFinite(s.next);
+  requireSound(s.next, "after the implicit solve of a step", dt);
   report.pushedOut = keepOutOfSolids(liquid, s.next);
   report.kineticEnergy = s.integrator.kineticEnergy();
   s.noteImpulses(dt);

@@ -1,16 +1,21 @@
 #include "foam/surroundings.h"
 
-#include <string>
-
 #include "foam/errors.h"
+#include "foam/failure_text.h"
 
 namespace spume::foam {
 namespace {
 
+/// `field` has a row or column a point.
 template <typename Field>
-void requireFinite(const Field& field, const char* name) {
-  if (!field.allFinite())
-    throw NumericalFailure(std::string("the liquid sampler returned a ") + name + " that is not finite");
+void requireFinite(const Field& field, const char* name, Points x) {
+  if (field.allFinite()) return;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    const auto value = field.reshaped(field.size() / x.cols(), x.cols()).col(i);
+    if (!value.allFinite())
+      throw NumericalFailure(joined("foam: the liquid sampler returned ", name, " = ", value.transpose(),
+                                    ", not finite, at ", textOf(x.col(i)), " m"));
+  }
 }
 
 }  // namespace
@@ -23,7 +28,7 @@ void Surroundings::sample(const LiquidSampler& liquid, Points x) {
   if (n == 0) return;
   liquid.gradPhi(x, gradPhi);
   liquid.gradPressure(x, gradPressure);
-  requireFinite(gradPhi, "gradPhi"), requireFinite(gradPressure, "gradPressure");
+  requireFinite(gradPhi, "gradPhi", x), requireFinite(gradPressure, "gradPressure", x);
 }
 
 void Surroundings::sampleFlow(const LiquidSampler& liquid, Points x) {
@@ -32,7 +37,7 @@ void Surroundings::sampleFlow(const LiquidSampler& liquid, Points x) {
   if (n == 0) return;
   liquid.phi(x, phi);
   liquid.velocity(x, liquidVelocity);
-  requireFinite(phi, "phi"), requireFinite(liquidVelocity, "velocity");
+  requireFinite(phi, "phi", x), requireFinite(liquidVelocity, "velocity", x);
 }
 
 void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
@@ -43,7 +48,8 @@ void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
   liquid.gradPsi(x, gradPsi);
   liquid.solidVelocity(x, solidVelocity);
   liquid.solidIndex(x, solid);
-  requireFinite(psi, "psi"), requireFinite(gradPsi, "gradPsi"), requireFinite(solidVelocity, "solidVelocity");
+  requireFinite(psi, "psi", x), requireFinite(gradPsi, "gradPsi", x);
+  requireFinite(solidVelocity, "solidVelocity", x);
 }
 
 }  // namespace spume::foam

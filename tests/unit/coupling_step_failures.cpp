@@ -93,5 +93,21 @@ TEST_F(StepFailures, OfTheNumbersAreTriedAgainAtHalfTheLength) {
   EXPECT_NEAR(report.gas.imbalance(), 0, 1e-12 * report.gas.entered());
 }
 
+/// What the module knows, and when it was; the last try is a sixteenth of the step.
+TEST_F(StepFailures, OfTheNumbersThatGoOnAreThrownWithTheirStep) {
+  fault_ = {3, [&] {
+              fault_.countdown = 3;
+              throw foam::NumericalFailure("no number");
+            }};
+  try {
+    simulation_.step(0.01);
+    FAIL() << "no exception";
+  } catch (const foam::NumericalFailure& failure) {
+    EXPECT_STREQ(failure.what(),
+                 "step 2 from t = 0.01 s failed, halved 4 times to dt = 0.000625 s: no number");
+  }
+  EXPECT_EQ(bytesOf(simulation_.state()), before_);
+}
+
 }  // namespace
 }  // namespace spume::coupling
