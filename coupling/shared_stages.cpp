@@ -125,7 +125,7 @@ void SharedStages::stepFoam(double dt, StepReport& report) {
   std::vector<fluid::Push> given;
   for (int n = 0; n < subSteps; ++n) {
     foam::FoamStepReport now = foam.step(state.bubbles, *fields, dt / subSteps);
-    takeFoamEvents(now, report);
+    takeFoamEvents(now, n + 1 == subSteps ? report.time : state.time + dt * (n + 1) / subSteps, report);
     if (scene.coupling.twoWay) {
       const std::vector<fluid::Push> pushed = reactions(foam.dragImpulses());
       given.insert(given.end(), pushed.begin(), pushed.end());
@@ -144,10 +144,9 @@ void SharedStages::stepFoam(double dt, StepReport& report) {
   report.secondsFoam = watch.seconds();
 }
 
-void SharedStages::takeFoamEvents(foam::FoamStepReport& happened, StepReport& report) {
-  for (const foam::FoamEvent& event : happened.events) {
-    report.events.push_back(foamEvent(event, report.time));
-  }
+/// Of a sub-step that ends at `time` [s].
+void SharedStages::takeFoamEvents(foam::FoamStepReport& happened, double time, StepReport& report) {
+  for (const foam::FoamEvent& event : happened.events) report.events.push_back(foamEvent(event, time));
   happened.events.clear();
 }
 

@@ -35,7 +35,7 @@ struct SharedStages {
   void reportFirstBubbles(StepReport& report) const;
   void supplyBubbles(double dt, StepReport& report);
   void stepFoam(double dt, StepReport& report);
-  void takeFoamEvents(foam::FoamStepReport& happened, StepReport& report);
+  void takeFoamEvents(foam::FoamStepReport& happened, double time, StepReport& report);
   void removeLeavers(StepReport& report);
   void book(double dt, StepReport& report);
   fluid::ImmersedGas immersedGas() const;

@@ -213,7 +213,11 @@ const std::vector<Column<EventRow>>& columnsOfEvents() {
   using R = EventRow;
   static const std::vector<Column<R>> kColumns{
       event("step", "-", "in which it happened", [](const R& r) { return r.step; }),
-      event("time", "s", "at which it happened", [](const R& r) { return r.event.time; }),
+      event("time", "s",
+            "burst, merge, class: end of the sub-step of the foam in which it happened; birth, kill, leave: "
+            "end "
+            "of the step",
+            [](const R& r) { return r.event.time; }),
       event("kind", "-", "birth, burst, merge, class, kill or leave",
             [](const R& r) { return nameOf(r.event.kind); }),
       event("id", "-", "of the bubble", [](const R& r) { return r.event.id; }),
