@@ -88,6 +88,16 @@ TEST_F(RunFolder, ARunThatHadACheckpointIsNotMadeAgain) {
   expectRefused(run(3), 4, "--restart starts anew");
 }
 
+/// Its foam costs nothing more by `run`.
+TEST_F(RunFolder, AStillPoolHasNoLiquidForTheFoamAlone) {
+  fs::create_directory(scratch_ / "still");
+  scratch_.write("still/scene.toml",
+                 "[domain]\nsize = [1, 1, 1]\n[still_pool]\nenabled = true\nlevel = 0.5\n");
+  const Outcome refused = runSpume("foam " + (scratch_ / "still") + " -o " + (scratch_ / "b"));
+  expectRefused(refused, 2, "has no solved liquid, but a pool at rest; run its scene with --set instead");
+  EXPECT_EQ(refused.errors.find("liquid_cache"), std::string::npos) << refused.errors;
+}
+
 TEST_F(RunFolder, AFrameThatCouldNotBeWrittenIsWrittenAfterResuming) {
   ASSERT_EQ(run(3, "", "b").code, 0);
   ASSERT_EQ(run(1).code, 0);
