@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -20,18 +19,15 @@
 #include "coupling/scene_builder.h"
 #include "coupling/scene_lint.h"
 #include "coupling/statistics.h"
+#include "coupling/stopwatch.h"
+#include "coupling/unfinished_run.h"
 
 namespace spume::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using coupling::FrameReport;
 using coupling::Simulation;
 using coupling::StepReport;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One run on one folder. The members are built in order: nothing is written before the scene proved sound.
 class Session {
@@ -44,18 +40,23 @@ class Session {
   void recall(int step, int frame);
   void begin();
   void advance(Progress& progress, const StopRequest& stop);
+  template <typename Rows>
+  void addRows(const Rows& report);
   void writeCheckpoint();
+  void leaveCheckpoint();
   void writeSummary(const std::string& status);
   void finish();
 
   const SessionOptions& options_;
-  const Clock::time_point start_ = Clock::now();
+  const coupling::Stopwatch watch_;
   coupling::RunFolder folder_;
   const coupling::FolderLock lock_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<coupling::StatisticsWriter> statistics_;
   std::unique_ptr<Log> log_;
   coupling::RunSummary summary_;
+  int written_ = 0;                ///< last frame whose files are whole: only then it is done
+  bool rowsWhole_ = true;          ///< the tables have a row of every step taken
   std::vector<StepReport> begun_;  ///< steps a resumed run has behind it of the frame it goes on in
 };
 
@@ -71,13 +72,16 @@ Session::Session(const SessionOptions& options)
   std::optional<coupling::LoadedCheckpoint> loaded;
   if (!options.restart) loaded = coupling::readNewestCheckpoint(folder_.checkpoints(), options.scene);
   int step = 0, frame = 0;
+  using enum coupling::Beginning;
+  coupling::Beginning beginning = afresh;
   if (loaded) {
     step = loaded->state.step;
-    frame = loaded->state.frame;
+    frame = written_ = loaded->state.frame;
     simulation_ = std::make_unique<Simulation>(options.scene, std::move(loaded->state));
   } else {
+    if (!options.restart) beginning = coupling::beginningIn(folder_, options.scene);
     simulation_ = std::make_unique<Simulation>(options.scene);
-    folder_.clear();
+    if (beginning == afresh) folder_.clear();
   }
   summary_.threads = options.threads;
   summary_.switchedOff = coupling::switchedOff(options.scene);
@@ -87,6 +91,7 @@ Session::Session(const SessionOptions& options)
     for (const std::string& warning : loaded->warnings) log_->say("warning: " + warning);
     if (!finished()) log_->say("going on from " + loaded->path);
   }
+  if (beginning == again) log_->say("no checkpoint yet: begins again at the first frame");
   folder_.writeScene(options.scene);
   recall(step, frame);
   statistics_ = std::make_unique<coupling::StatisticsWriter>(folder_.root(), step, frame,
@@ -118,10 +123,10 @@ void Session::begin() {
 }
 
 void Session::advance(Progress& progress, const StopRequest& stop) {
-  const Clock::time_point start = Clock::now();
+  const coupling::Stopwatch watch;
   const int frame = simulation_->frame() + 1;
   FrameReport report = simulation_->advanceFrame([&](const StepReport& step) {
-    statistics_->add(step);
+    addRows(step);
     progress.step(frame, step);
     if (step.halvings > 0)
       log_->write("step " + std::to_string(step.step) + ": halved " + std::to_string(step.halvings) +
@@ -130,21 +135,44 @@ void Session::advance(Progress& progress, const StopRequest& stop) {
   });
   report.steps.insert(report.steps.begin(), begun_.begin(), begun_.end());
   begun_.clear();
-  statistics_->add(report);
-  coupling::accumulate(summary_, report);
   writeFrame(folder_, *simulation_);
+  addRows(report);
+  written_ = frame;
+  coupling::accumulate(summary_, report);
   if (finished() || simulation_->frame() % options_.scene.output.checkpointEvery == 0) writeCheckpoint();
-  progress.frame(report, secondsSince(start));
+  progress.frame(report, watch.seconds());
 }
 
+/// Until its rows are in the tables nobody may go on from after a step or a frame.
+template <typename Rows>
+void Session::addRows(const Rows& report) {
+  rowsWhole_ = false;
+  statistics_->add(report);
+  rowsWhole_ = true;
+}
+
+/// A frame that could not be written is taken up again at its end, without a step, to be written.
 void Session::writeCheckpoint() {
-  coupling::writeCheckpoint(folder_.checkpoints(), options_.scene, simulation_->state());
+  coupling::SimulationState state = simulation_->state();
+  state.frame = written_;
+  coupling::writeCheckpoint(folder_.checkpoints(), options_.scene, state);
   writeSummary("running");
+}
+
+/// Of a run that failed: its state is that between two steps, as a failed step takes itself back.
+void Session::leaveCheckpoint() {
+  if (!rowsWhole_) return;
+  try {
+    writeCheckpoint();
+    writeSummary("failed");
+  } catch (const std::exception& error) {  // the same full disk or lack of memory, like as not
+    log_->write(std::string("no checkpoint: ") + error.what());
+  }
 }
 
 void Session::writeSummary(const std::string& status) {
   summary_.status = status;
-  summary_.wallSeconds = secondsSince(start_);
+  summary_.wallSeconds = watch_.seconds();
   summary_.bubbles = simulation_->bubbles().size();
   coupling::writeRunJson(folder_.runJson(), options_.scene, summary_);
 }
@@ -158,8 +186,10 @@ void Session::finish() {
   writeSummary("done");
   const std::string problem = coupling::volumeWarning(summary_, simulation_->liquid().grid.cellVolume());
   if (!problem.empty()) log_->say("warning: " + problem);
+  for (const std::string& warning : coupling::unplacedWarnings(options_.scene, simulation_->supply().sources))
+    log_->say("warning: " + warning);
   log_->say("done: frame " + std::to_string(simulation_->frame()) + " after " +
-            formatDuration(secondsSince(start_)) + ", " + std::to_string(simulation_->bubbles().size()) +
+            formatDuration(watch_.seconds()) + ", " + std::to_string(simulation_->bubbles().size()) +
             " bubbles; see " + folder_.root());
 }
 
@@ -180,13 +210,9 @@ ExitCode Session::run() {
     log_->say(std::string(stopped.what()) + " in frame " + std::to_string(simulation_->frame() + 1) + "; " +
               wayOn(options_.restart) + " from the checkpoint");
     return stopped.code();
-  } catch (const coupling::FileError& error) {
+  } catch (const std::exception& error) {
     log_->write(error.what());
-    throw;
-  } catch (const std::exception& error) {  // the failed step left the state as it was
-    writeCheckpoint();
-    writeSummary("failed");
-    log_->write(error.what());
+    leaveCheckpoint();
     throw;
   }
   finish();

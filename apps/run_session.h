@@ -19,8 +19,8 @@ struct SessionOptions {
 };
 
 /// Runs the scene to its last frame, or until it is asked to stop, with checkpoints on the way. Prints
-/// progress. Throws coupling::SceneError and FileError; a divergence leaves a checkpoint and is thrown as
-/// NumericalFailure.
+/// progress. Throws coupling::SceneError and FileError; a divergence is thrown as NumericalFailure. What
+/// stops a run on the way leaves a checkpoint, where the disk still takes one.
 ExitCode runSession(const SessionOptions& options);
 
 /// Threads that work if nothing else is asked for: one per core, or as many as a tbb::global_control leaves.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "coupling/clearance_grid.h"
-#include "coupling/scene_builder.h"
+#include "coupling/object_label.h"
 #include "coupling/shapes.h"
 #include "foam/counter_random.h"
+#include "foam/volume_correction.h"
 
 namespace spume::coupling {
 namespace {
@@ -18,12 +18,9 @@ constexpr std::uint64_t kTimePurpose = 0x736f757263650002;
 constexpr std::uint64_t kRadiusPurpose = 0x736f757263650003;
 constexpr std::uint64_t kPlacePurpose = 0x736f757263650004;
 
-/// Places a bubble may choose from: with half of the region covered all are only once in 65 000.
-constexpr int kPlaces = 16;
+constexpr int kPlaces = BubbleSources::kPlaces;
 /// Points drawn in the box of a region for them: enough for a shape that fills a fiftieth of its box.
 constexpr int kDraws = 50 * kPlaces;
-
-double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
 std::uint64_t streamOf(std::uint64_t seed, std::size_t source) {
   return foam::CounterRandom(seed, source, kTimePurpose).bits();
@@ -32,12 +29,12 @@ std::uint64_t streamOf(std::uint64_t seed, std::size_t source) {
 /// Where one source finds places.
 class Region {
  public:
-  Region(const BubbleSourceSpec& spec, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper,
-         const foam::LiquidSampler& liquid, const foam::BubbleStore& bubbles)
+  Region(const BubbleSourceSpec& spec, const DomainBox& domain, const foam::LiquidSampler& liquid,
+         const foam::BubbleStore& bubbles)
       : spec_(spec),
         liquid_(liquid),
-        lower_(bounds(spec.shape).first.cwiseMax(lower)),
-        upper_(bounds(spec.shape).second.cwiseMin(upper)),
+        lower_(bounds(spec.shape).first.cwiseMax(domain.lower)),
+        upper_(bounds(spec.shape).second.cwiseMin(domain.upper)),
         near_(lower_, upper_, (spec.radius.least + spec.radius.most) / 2) {
     const double reach = spec.radius.most;
     for (std::size_t i = 0; i < bubbles.size(); ++i) {
@@ -94,10 +91,7 @@ struct BubbleSources::Due {
 };
 
 BubbleSources::BubbleSources(const Scene& scene)
-    : specs_(scene.bubbleSources),
-      lower_(scene.domain.lower),
-      upper_(gridOf(scene).upper()),
-      seed_(scene.seed) {}
+    : specs_(scene.bubbleSources), domain_(scene), seed_(scene.seed) {}
 
 double BubbleSources::drawRadius(std::size_t source, std::uint64_t birth) const {
   foam::CounterRandom random(streamOf(seed_, source), birth, kRadiusPurpose);
@@ -112,7 +106,7 @@ std::vector<BubbleSources::Due> BubbleSources::dueUntil(std::size_t source, doub
   const bool byNumber = spec.measure == SourceMeasure::number;
   const double total = (byNumber ? spec.rate : spec.gasRate).integral(spec.start, std::min(to, spec.stop));
   for (;;) {
-    const double radius = drawRadius(source, progress.births), gas = progress.gas + ballVolume(radius);
+    const double radius = drawRadius(source, progress.births), gas = progress.gas + foam::ballVolume(radius);
     const double jitter =
         foam::CounterRandom(streamOf(seed_, source), progress.births, kTimePurpose).uniform();
     if ((byNumber ? static_cast<double>(progress.births) + jitter : gas) >= total) return due;
@@ -121,23 +115,41 @@ std::vector<BubbleSources::Due> BubbleSources::dueUntil(std::size_t source, doub
   }
 }
 
-std::vector<Blown> BubbleSources::step(double to, const foam::LiquidSampler& liquid,
-                                       const foam::BubbleStore& bubbles,
-                                       std::vector<SourceProgress>& progress) const {
-  std::vector<Blown> blown;
+BlownStep BubbleSources::step(double to, const foam::LiquidSampler& liquid, const foam::BubbleStore& bubbles,
+                              std::vector<SourceProgress>& progress) const {
+  BlownStep blown;
   progress.resize(specs_.size());
   for (std::size_t s = 0; s < specs_.size(); ++s) {
     const std::vector<Due> due = dueUntil(s, to, progress[s]);
     if (due.empty()) continue;
-    Region region(specs_[s], lower_, upper_, liquid, bubbles);
+    Region region(specs_[s], domain_, liquid, bubbles);
     for (const Due& one : due) {
       foam::NewBubble bubble{
           {0, 0, 0}, specs_[s].velocity, one.radius, foam::BubbleClass::liquid, specs_[s].wetness};
       const foam::CounterRandom random(streamOf(seed_, s), one.birth, kPlacePurpose);
-      if (region.place(one.radius, random, bubble.position)) blown.push_back({bubble, static_cast<int>(s)});
+      if (region.place(one.radius, random, bubble.position)) {
+        blown.bubbles.push_back({bubble, static_cast<int>(s)});
+      } else {
+        ++progress[s].unplaced;
+        blown.unplacedGas += foam::ballVolume(one.radius);
+      }
     }
   }
   return blown;
+}
+
+std::vector<std::string> unplacedWarnings(const Scene& scene, const std::vector<SourceProgress>& progress) {
+  std::vector<std::string> warnings;
+  for (std::size_t s = 0; s < progress.size(); ++s) {
+    const BubbleSourceSpec& spec = scene.bubbleSources[s];
+    if (progress[s].unplaced == 0) continue;
+    warnings.push_back(objectLabel("bubble_source", spec.name, s) + ": " +
+                       std::to_string(progress[s].unplaced) + " of its " +
+                       std::to_string(progress[s].births) + " bubbles found no place outside solids" +
+                       (spec.immersed ? " in the liquid" : "") +
+                       " and were left out; source_unplaced in steps.csv says when");
+  }
+  return warnings;
 }
 
 }  // namespace spume::coupling

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "coupling/foam_objects.h"
-#include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
 #include "foam/volume_correction.h"
 
@@ -28,15 +27,14 @@ BubbleSupply::BubbleSupply(const Scene& scene)
       radiusOnExchange_(foam::holdsVolumes(foamParamsOf(scene)) ? foam::Radius::stays
                                                                 : foam::Radius::follows),
       nucleation_(nucleationParamsOf(scene)),
-      lower_(scene.domain.lower),
-      upper_(gridOf(scene).upper()),
+      domain_(scene),
       seed_(scene.seed) {}
 
 SupplyState BubbleSupply::begin(const foam::LiquidSampler& liquid, double liquidVolume) const {
   SupplyState state;
   for (std::size_t k = 0; k < nucleation_.size(); ++k) {
-    const auto sites =
-        foam::findNucleationSites(nucleation_[k], static_cast<int>(k), liquid, lower_, upper_, seed_);
+    const auto sites = foam::findNucleationSites(nucleation_[k], static_cast<int>(k), liquid, domain_.lower,
+                                                 domain_.upper, seed_);
     state.sites.insert(state.sites.end(), sites.begin(), sites.end());
   }
   if (solution_.enabled)
@@ -71,7 +69,9 @@ void BubbleSupply::removeInRegions(double now, foam::BubbleStore& bubbles, GasLe
 
 void BubbleSupply::blow(double now, const foam::LiquidSampler& liquid, foam::BubbleStore& bubbles,
                         SupplyState& state, GasLedger& gas, Events& events) const {
-  for (const Blown& blown : sources_.step(now, liquid, bubbles, state.sources))
+  const BlownStep step = sources_.step(now, liquid, bubbles, state.sources);
+  gas.unplaced += step.unplacedGas;
+  for (const Blown& blown : step.bubbles)
     gas.bornSources += addBubble(blown.bubble, EventCause::source, blown.source, now, bubbles, events);
 }
 

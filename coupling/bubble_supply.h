@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "coupling/bubble_sources.h"
+#include "coupling/domain_box.h"
 #include "coupling/event.h"
 #include "coupling/gas_ledger.h"
 #include "coupling/scene.h"
@@ -53,7 +54,7 @@ class BubbleSupply {
   const foam::DissolvedGasParams solution_;
   const foam::Radius radiusOnExchange_;
   std::vector<foam::NucleationParams> nucleation_;
-  Eigen::Vector3d lower_, upper_;  ///< of the domain [m]
+  const DomainBox domain_;
   std::uint64_t seed_;
 };
 

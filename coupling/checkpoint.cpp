@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kKept = 2;  // checkpoints: the newest may be damaged by a dying disk
 constexpr char kMagic[8] = {'S', 'P', 'U', 'M', 'E', 'C', 'K', 'P'};
-constexpr std::uint32_t kVersion = 7;  // of the format
+constexpr std::uint32_t kVersion = 8;  // of the format
 constexpr char kPrefix[] = "checkpoint.", kSuffix[] = ".bin";
 
 struct Header {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "foam/counter_random.h"
+#include "foam/volume_correction.h"
 
 namespace spume::coupling {
 namespace {
@@ -20,8 +21,6 @@ std::uint64_t blockKey(const BlockIndex& block) {
   const auto word = [](int v) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(v)); };
   return (word(block[0]) << 42) ^ (word(block[1]) << 21) ^ word(block[2]);
 }
-
-double ballVolume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
 /// Standard normal by Box and Muller.
 double normal(foam::CounterRandom& random) {
@@ -54,14 +53,14 @@ void Entrainment::payBubbles(const Leaver& leaver, const BlockIndex& block, Rese
                              std::vector<Birth>& births) const {
   for (;;) {
     const double radius = drawRadius(block, reservoir.draws);
-    if (reservoir.gas < ballVolume(radius)) return;
+    if (reservoir.gas < foam::ballVolume(radius)) return;
     // Several bubbles paid by one leaver must not start at one point.
     foam::CounterRandom random(seed_ ^ blockKey(block), reservoir.draws, kPlacePurpose);
     const Eigen::Vector3d offset(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
     births.push_back(
         {{leaver.position + leaver.spread * offset, leaver.velocity, radius, foam::BubbleClass::liquid},
          leaver.cause});
-    reservoir.gas -= ballVolume(radius);
+    reservoir.gas -= foam::ballVolume(radius);
     ++reservoir.draws;
   }
 }

@@ -27,7 +27,8 @@ enum class EventCause {
 /// A row of events.csv.
 struct Event {
   enum class Kind { birth, burst, merge, classChange, kill, leave } kind;
-  double time;  ///< [s]
+  double time;  ///< end of the sub-step of the foam it happened in; of births, kills and leaves that of the
+                ///< step [s]
   std::uint64_t id;
   std::uint64_t other = 0;  ///< merge: the bubble that took the gas
   EventCause cause = EventCause::none;

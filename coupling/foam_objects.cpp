@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coupling/domain_box.h"
 #include "coupling/first_bubbles.h"
 #include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
@@ -18,38 +19,21 @@ constexpr double kSmallest = 1e-6;  // [m]
 constexpr std::uint64_t kProbePurpose = 0x736f757263650001;
 constexpr int kRoomProbes = 2000;  // points that look for room in a source: finds a share of 0.3 % for sure
 
-std::string text(const Eigen::Vector3d& v) {
-  std::string all;
-  for (int axis = 0; axis < 3; ++axis) all.append(axis == 0 ? "[" : ", ").append(exactText(v[axis]));
-  return all.append("]");
-}
-
 /// To the micrometre.
 std::string rounded(const Eigen::Vector3d& v) {
   constexpr double kPerMetre = 1e6;
-  return text((v * kPerMetre).array().round().matrix() / kPerMetre);
+  return exactText(Eigen::Vector3d((v * kPerMetre).array().round() / kPerMetre));
 }
 
-/// The box of the domain, as the grid rounds it.
-struct Box {
-  Eigen::Vector3d lower, upper;
-
-  explicit Box(const Scene& scene) : lower(scene.domain.lower), upper(gridOf(scene).upper()) {}
-  bool holds(const Eigen::Vector3d& x) const {
-    return (x.array() >= lower.array()).all() && (x.array() <= upper.array()).all();
-  }
-  std::string words() const { return "the domain from " + text(lower) + " to " + text(upper) + " m"; }
-};
-
-void checkBubbles(const Scene& scene, const Box& domain, const SignedDistance& psi) {
-  const double widest = (domain.upper - domain.lower).minCoeff();
+void checkBubbles(const Scene& scene, const DomainBox& domain, const SignedDistance& psi) {
+  const double widest = domain.size().minCoeff();
   const FirstBubbles all(scene);
   all.forEach([&](const foam::NewBubble& bubble, const auto& place) {
     if (!domain.holds(bubble.position))
-      throw SceneError(place() + ": position " + text(bubble.position) + " lies outside " + domain.words() +
-                       "; move the bubble or the domain");
+      throw SceneError(place() + ": position " + exactText(bubble.position) + " lies outside " +
+                       domain.words() + "; move the bubble or the domain");
     if (!(bubble.velocity.cwiseAbs().maxCoeff() <= kFastest))
-      throw SceneError(place() + ": velocity " + text(bubble.velocity) + " m/s; each allowed: " +
+      throw SceneError(place() + ": velocity " + exactText(bubble.velocity) + " m/s; each allowed: " +
                        exactText(-kFastest) + " to " + exactText(kFastest) + " [m/s]");
     if (bubble.radius < kSmallest)
       throw SceneError(place() + ": radius " + exactText(bubble.radius) +
@@ -58,41 +42,27 @@ void checkBubbles(const Scene& scene, const Box& domain, const SignedDistance& p
       throw SceneError(place() + ": radius " + exactText(bubble.radius) +
                        " m: the bubble is larger than the domain; at most " + exactText(widest / 2) + " m");
     if (psi(bubble.position) <= 0)
-      throw SceneError(place() + ": position " + text(bubble.position) +
+      throw SceneError(place() + ": position " + exactText(bubble.position) +
                        " is inside a solid; move the bubble or the solid");
   });
 }
 
-void checkRegion(const ShapeSpec& shape, const Box& domain, const std::string& object) {
+void checkRegion(const ShapeSpec& shape, const DomainBox& domain, const std::string& object) {
   const std::string problem = defect(shape);
   if (!problem.empty()) throw SceneError(object + " (" + nameOf(shape.kind) + "): " + problem);
-  const auto [lower, upper] = bounds(shape);
-  if ((lower.array() >= domain.upper.array()).any() || (upper.array() <= domain.lower.array()).any())
-    throw SceneError(object + ": lies outside " + domain.words() + "; move it or remove it");
-}
-
-bool hasRoom(const ShapeSpec& shape, const Box& domain, const SignedDistance& psi) {
-  const auto [lower, upper] = bounds(shape);
-  const Eigen::Vector3d low = lower.cwiseMax(domain.lower), size = upper.cwiseMin(domain.upper) - low;
-  foam::CounterRandom random(0, 0, kProbePurpose);
-  for (int n = 0; n < kRoomProbes; ++n) {
-    const Eigen::Array3d place(random.uniform(), random.uniform(), random.uniform());
-    const Eigen::Vector3d x = low + (place * size.array()).matrix();
-    if (signedDistance(shape, x) <= 0 && psi(x) > 0) return true;
-  }
-  return false;
+  domain.requireOverlap(shape, object);
 }
 
 /// A gap may be narrower than a bubble, which it squeezes; a domain none of whose edges it fits into is a
 /// slip of the unit.
-void checkSource(const BubbleSourceSpec& source, const Box& domain, const SignedDistance& psi,
+void checkSource(const BubbleSourceSpec& source, const DomainBox& domain, const SignedDistance& psi,
                  const std::string& object) {
   checkRegion(source.shape, domain, object);
-  const double longest = (domain.upper - domain.lower).maxCoeff(), most = source.radius.most;
+  const double longest = domain.size().maxCoeff(), most = source.radius.most;
   if (2 * most > longest)
     throw SceneError(object + ": max_radius = " + exactText(most) +
                      " m: such a bubble is larger than the domain; at most " + exactText(longest / 2) + " m");
-  if (!hasRoom(source.shape, domain, psi)) {
+  if (roomShare(source.shape, domain, psi) == 0) {
     const auto [lower, upper] = bounds(source.shape);
     throw SceneError(object + ": all of it is inside a solid, around " + rounded((lower + upper) / 2) +
                      " m; move the source or the solid");
@@ -124,8 +94,23 @@ std::vector<foam::NucleationParams> nucleationParamsOf(const Scene& scene) {
   return all;
 }
 
+double roomShare(const ShapeSpec& shape, const DomainBox& domain, const SignedDistance& psi) {
+  const auto [lower, upper] = bounds(shape);
+  const Eigen::Vector3d low = lower.cwiseMax(domain.lower), size = upper.cwiseMin(domain.upper) - low;
+  foam::CounterRandom random(0, 0, kProbePurpose);
+  int inside = 0, clear = 0;
+  for (int n = 0; n < kRoomProbes; ++n) {
+    const Eigen::Array3d place(random.uniform(), random.uniform(), random.uniform());
+    const Eigen::Vector3d x = low + (place * size.array()).matrix();
+    if (signedDistance(shape, x) > 0) continue;
+    ++inside;
+    clear += psi(x) > 0;
+  }
+  return inside > 0 ? static_cast<double>(clear) / inside : 0;
+}
+
 void checkFoamObjects(const Scene& scene) {
-  const Box domain(scene);
+  const DomainBox domain(scene);
   const SignedDistance psi = solidDistance(scene);
   checkBubbles(scene, domain, psi);
   for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i)

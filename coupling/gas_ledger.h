@@ -13,6 +13,7 @@ struct GasLedger {
   double burst = 0, killed = 0,
          left = 0;          ///< given back to the air, removed by the scene, gone from the domain
   double notEntrained = 0;  ///< leavers below the onset: booked, never a bubble
+  double unplaced = 0;      ///< of sources whose bubbles found no place: booked, never a bubble
   double inBubbles = 0, inReservoirs = 0;  ///< held at the end
 
   double entered() const { return bornMarkers + bornPockets + bornSources + bornNucleation + grown; }

@@ -16,7 +16,8 @@ class LiquidPart {
  public:
   virtual ~LiquidPart() = default;
 
-  /// Advances by dt [s]. Throws fluid::NumericalFailure, and then the state is as it was before the call.
+  /// Advances by dt [s]. Throws fluid::NumericalFailure; whatever it throws, the state is as it was before
+  /// the call.
   virtual fluid::LiquidStepReport step(double dt, const fluid::ImmersedGas& gas,
                                        const std::vector<fluid::Push>& pushes) = 0;
   /// Takes the last successful step back.

@@ -1,7 +1,10 @@
 #include "coupling/run_folder.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "coupling/atomic_file.h"
 #include "coupling/scene_toml.h"
@@ -9,6 +12,7 @@
 namespace spume::coupling {
 namespace {
 
+constexpr const char* kFrameFolders[] = {"liquid", "bubbles", "drops", "films", "preview"};
 constexpr const char* kFolders[] = {"liquid", "bubbles", "drops", "films", "preview", "checkpoint"};
 // run.json tells a run's folder from others: it is written first and removed last.
 constexpr const char* kFiles[] = {"steps.csv", "frames.csv", "events.csv", "probes.csv",
@@ -23,6 +27,11 @@ std::string numbered(const std::string& stem, int frame, const char* suffix) {
 /// Whether a file in `folder` is one that a run writes there: liquid.0001.vdb in liquid, and so on.
 bool isOurs(const std::filesystem::path& file, const std::string& folder) {
   return file.filename().string().rfind(folder + ".", 0) == 0;
+}
+
+/// Number of such a file's frame, or of a row of frames.csv; 0 if it has none.
+int frameIn(const std::string& text, const std::string& start) {
+  return text.rfind(start, 0) == 0 ? std::max(0, std::atoi(text.c_str() + start.size())) : 0;
 }
 
 }  // namespace
@@ -55,6 +64,17 @@ std::string RunFolder::dropsPly(int frame) const { return numbered(root_ + "/dro
 std::string RunFolder::films(int frame) const { return numbered(root_ + "/films/films", frame, ".ply"); }
 std::string RunFolder::preview(int frame) const {
   return numbered(root_ + "/preview/preview", frame, ".png");
+}
+
+int RunFolder::lastFrame() const {
+  int last = 0;
+  std::error_code ignored;
+  for (const std::string folder : kFrameFolders)
+    for (const auto& entry : std::filesystem::directory_iterator(root_ + "/" + folder, ignored))
+      last = std::max(last, frameIn(entry.path().filename().string(), folder + "."));
+  std::ifstream rows(root_ + "/frames.csv");
+  for (std::string row; std::getline(rows, row);) last = std::max(last, frameIn(row, ""));
+  return last;
 }
 
 void RunFolder::writeScene(const Scene& scene) const {

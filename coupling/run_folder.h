@@ -32,6 +32,9 @@ class RunFolder {
   std::string films(int frame) const;       ///< films/films.0001.ply
   std::string preview(int frame) const;     ///< preview/preview.0001.png
 
+  /// The last frame of which there is a cache, a picture or a row of frames.csv; 0 if there is none.
+  int lastFrame() const;
+
   /// Writes scene.toml, every value resolved. Throws FileError.
   void writeScene(const Scene& scene) const;
   /// Removes caches, pictures, statistics and checkpoints of an earlier run: what a run writes, nothing else.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -82,6 +83,7 @@ JsonObject gasTotals(const GasLedger& gas) {
       .add("killed", gas.killed)
       .add("left", gas.left)
       .add("not_entrained", gas.notEntrained)
+      .add("unplaced", gas.unplaced)
       .add("in_bubbles", gas.inBubbles)
       .add("in_reservoirs", gas.inReservoirs)
       .add("imbalance", gas.imbalance());
@@ -174,6 +176,16 @@ std::vector<std::string> switchedOff(const Scene& scene) {
   for (const auto& [isOn, feature] : features)
     if (!isOn) off.push_back(feature);
   return off;
+}
+
+bool isUnderWay(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return false;
+  const std::string text = readFile(path);
+  const auto says = [&](const std::string& name, const std::string& value) {
+    return text.find(quoted(name) + ": " + quoted(value)) != std::string::npos;
+  };
+  return says("status", "running") && says("spume", SPUME_VERSION) && says("simd", SPUME_SIMD_PATH);
 }
 
 void writeRunJson(const std::string& path, const Scene& scene, const RunSummary& summary) {

@@ -34,6 +34,10 @@ std::string volumeWarning(const RunSummary& summary, double cellVolume);
 /// Features of the program that this scene leaves out, in words.
 std::vector<std::string> switchedOff(const Scene& scene);
 
+/// Whether a run.json says that its run has neither ended nor stopped, and is one of this very program: same
+/// version, same SIMD path. False if there is none.
+bool isUnderWay(const std::string& path);
+
 /// Writes run.json. Atomic. Throws FileError.
 void writeRunJson(const std::string& path, const Scene& scene, const RunSummary& summary);
 

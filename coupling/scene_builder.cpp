@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "coupling/domain_box.h"
 #include "coupling/object_label.h"
 #include "coupling/shapes.h"
 #include "coupling/solid_file_store.h"
@@ -113,7 +114,7 @@ SignedDistance liquidInVessel(const SolidSpec& vessel, double depth, const Eigen
 ShapeSpec continuedBehindWalls(const Scene& scene, ShapeSpec shape) {
   if (shape.kind != ShapeKind::box) return shape;
   const double near = 1e-6 * scene.dx();  // round-off of what is written
-  const Eigen::Vector3d low = scene.domain.lower, high = gridOf(scene).upper();
+  const auto [low, high] = DomainBox(scene);
   const double beyond = scene.domain.size.norm();
   for (int axis = 0; axis < 3; ++axis) {
     if (scene.domain.closed[2 * axis] && shape.lower[axis] <= low[axis] + near)

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "coupling/domain_box.h"
 #include "coupling/foam_objects.h"
 #include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
@@ -16,20 +17,6 @@ namespace {
 constexpr double kRequiredCells = 2;         // [dx] of a nozzle that must lie inside the domain
 constexpr double kLeastOutletRadius = 0.75;  // [dx] a smaller disc may miss every cell centre
 constexpr int kRimPoints = 16;               // of an outlet, tested against solids
-
-std::string text(const Eigen::Vector3d& v) {
-  return "[" + exactText(v.x()) + ", " + exactText(v.y()) + ", " + exactText(v.z()) + "]";
-}
-
-Eigen::Vector3d domainUpper(const Scene& scene) { return gridOf(scene).upper(); }
-
-std::string domainText(const Scene& scene) {
-  return "the domain from " + text(scene.domain.lower) + " to " + text(domainUpper(scene)) + " m";
-}
-
-bool insideDomain(const Scene& scene, const Eigen::Vector3d& x) {
-  return (x.array() >= scene.domain.lower.array()).all() && (x.array() <= domainUpper(scene).array()).all();
-}
 
 /// The centre of the outlet and points round its rim.
 std::vector<Eigen::Vector3d> outletPoints(const InflowSpec& inflow) {
@@ -54,10 +41,7 @@ void checkShape(const ShapeSpec& shape, const std::string& object) {
 }
 
 void checkInDomain(const Scene& scene, const ShapeSpec& shape, const std::string& object) {
-  const auto [lower, upper] = bounds(shape);
-  const bool apart = (lower.array() >= domainUpper(scene).array()).any() ||
-                     (upper.array() <= scene.domain.lower.array()).any();
-  if (apart) throw SceneError(object + ": lies outside " + domainText(scene) + "; move it or remove it");
+  DomainBox(scene).requireOverlap(shape, object);
 }
 
 void checkSolid(const Scene& scene, const SolidSpec& solid, const std::string& object) {
@@ -86,21 +70,22 @@ void checkLiquidBody(const Scene& scene, const LiquidBodySpec& body, const std::
 
 void checkInflow(const Scene& scene, const InflowSpec& inflow, const std::string& object,
                  const SignedDistance& psi) {
+  const DomainBox domain(scene);
   const double dx = scene.dx();
   if (inflow.radius < kLeastOutletRadius * dx)
     throw SceneError(object + ": radius " + exactText(inflow.radius) + " m is too small for cells of " +
                      exactText(dx) + " m; at least " + exactText(kLeastOutletRadius * dx) +
                      " m, or a finer domain.resolution");
   for (const Eigen::Vector3d& point : outletPoints(inflow)) {
-    if (!insideDomain(scene, point))
-      throw SceneError(object + ": its outlet leaves " + domainText(scene) + " at " + text(point) +
+    if (!domain.holds(point))
+      throw SceneError(object + ": its outlet leaves " + domain.words() + " at " + exactText(point) +
                        "; move the centre or shrink the radius");
     if (psi(point) <= 0)
-      throw SceneError(object + ": its outlet is inside a solid at " + text(point) +
+      throw SceneError(object + ": its outlet is inside a solid at " + exactText(point) +
                        "; move the inflow or the solid");
   }
   const Eigen::Vector3d back = inflow.centre - kRequiredCells * dx * inflow.direction.normalized();
-  if (!insideDomain(scene, back))
+  if (!domain.holds(back))
     throw SceneError(
         object + ": the nozzle needs " + exactText(kRequiredCells * dx) +
         " m behind its outlet inside the domain; move the centre along its direction by at least that");
@@ -125,8 +110,9 @@ void checkProbe(const Scene& scene, const ProbeSpec& probe, const std::string& o
   if (probe.kind == ProbeKind::volume) {
     checkShape(probe.shape, object);
     checkInDomain(scene, probe.shape, object);
-  } else if (!insideDomain(scene, probe.position)) {
-    throw SceneError(object + ": position " + text(probe.position) + " lies outside " + domainText(scene));
+  } else if (!DomainBox(scene).holds(probe.position)) {
+    throw SceneError(object + ": position " + exactText(probe.position) + " lies outside " +
+                     DomainBox(scene).words());
   }
 }
 

@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "coupling/domain_box.h"
 #include "coupling/scene_builder.h"
 #include "coupling/scene_lint.h"
 #include "coupling/scene_volumes.h"
+#include "foam/volume_correction.h"
 
 namespace spume::coupling {
 namespace {
@@ -27,9 +28,9 @@ double suppliedBubbles(const Scene& scene, double t) {
   for (const BubbleSourceSpec& source : scene.bubbleSources) {
     const double end = std::max(source.start, std::min(source.stop, t));
     const double middle = 0.5 * (source.radius.least + source.radius.most);
-    sum += source.measure == SourceMeasure::number ? source.rate.integral(source.start, end)
-                                                   : source.gasRate.integral(source.start, end) /
-                                                         (4 * std::numbers::pi / 3 * std::pow(middle, 3));
+    sum += source.measure == SourceMeasure::number
+               ? source.rate.integral(source.start, end)
+               : source.gasRate.integral(source.start, end) / foam::ballVolume(middle);
   }
   return sum;
 }
@@ -49,8 +50,8 @@ CostEstimate estimateCost(const Scene& scene) {
   const fluid::GridSpec grid = gridOf(scene);
   const double end = scene.time.frames / scene.time.fps, frame = 1 / scene.time.fps;
   cost.cells = grid.cells.cast<long>().prod();
-  cost.liquidVolume = std::min(initialWetShare(scene) * scene.domain.size.prod() + pouredUntil(scene, end),
-                               scene.domain.size.prod());
+  const double room = DomainBox(scene).volume();
+  cost.liquidVolume = std::min(initialWetShare(scene) * room + pouredUntil(scene, end), room);
   const double subStep = scene.liquid.cfl * scene.dx() / fastest(scene);
   const double step = std::clamp(subStep * scene.time.maxSubSteps, scene.time.minDt, scene.time.maxDt);
   cost.stepsPerFrame = static_cast<int>(std::ceil(frame / step));

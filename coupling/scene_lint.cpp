@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "coupling/bubble_sources.h"
+#include "coupling/domain_box.h"
 #include "coupling/finding_list.h"
 #include "coupling/first_bubbles.h"
 #include "coupling/foam_objects.h"
@@ -15,6 +16,7 @@
 #include "coupling/scene_volumes.h"
 #include "coupling/solid_lint.h"
 #include "coupling/unused_keys.h"
+#include "foam/volume_correction.h"
 
 namespace spume::coupling {
 namespace {
@@ -25,13 +27,12 @@ constexpr double kBubblesPerBlock = 0.125;  // gas of a typical bubble over the 
 constexpr double kCrowd = 20;               // gas of the first bubbles over the room they share
 constexpr double kManySites = 1e6;          // of nucleation that are slow to make
 constexpr double kGentleImpact = 0.2;       // below this even landing drops and soft jets entrain [m/s]
+constexpr double kLeastRoom = 0.5;          // of a source outside solids: most of it
 constexpr double kDryShare = 1e-4;          // smallest share of air in the domain that is worth running
-
-double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * std::pow(radius, 3); }
 
 class Linter {
  public:
-  explicit Linter(const Scene& scene) : scene_(scene), dx_(scene.dx()) {}
+  explicit Linter(const Scene& scene) : scene_(scene), domain_(scene), dx_(scene.dx()) {}
 
   std::vector<Finding> lint() {
     lintRoom(scene_, findings_);
@@ -90,7 +91,7 @@ class Linter {
           " cells: the liquid changes across them, yet is sampled at their centre; use smaller bubbles or a "
           "lower "
           "resolution");
-    const double typical = ballVolume(births.medianRadius);
+    const double typical = foam::ballVolume(births.medianRadius);
     if (births.enabled && typical > kBubblesPerBlock * std::pow(births.blockSize, 3))
       findings_.note("coupling.entrainment.block_size", births.blockSize,
                      " m is small for bubbles of radius ", births.medianRadius,
@@ -107,7 +108,7 @@ class Linter {
     std::map<std::array<double, 3>, double> volume;  // of the bubbles centred in blocks as wide as the widest
     for (std::size_t b = 0; b < bubbles.size(); ++b) {
       const Eigen::Array3d block = (bubbles.position[b].array() / widest).floor();
-      volume[{block.x(), block.y(), block.z()}] += ballVolume(bubbles.radius[b]);
+      volume[{block.x(), block.y(), block.z()}] += foam::ballVolume(bubbles.radius[b]);
     }
     for (const auto& [block, gas] : volume)
       if (gas > kCrowd * std::pow(widest, 3))
@@ -123,11 +124,25 @@ class Linter {
       if (scene_.bubbleSources[i].start >= end)
         findings_.note(objectLabel("bubble_source", scene_.bubbleSources[i].name, i), "starts at ",
                        scene_.bubbleSources[i].start, " s, after the last frame");
+    lintSourceRooms();
     for (std::size_t i = 0; i < scene_.nucleation.size(); ++i) lintNucleation(i);
     const double saturation = scene_.dissolvedGas.henry * scene_.dissolvedGas.pressure;
     if (scene_.dissolvedGas.enabled && scene_.dissolvedGas.concentration < saturation)
       findings_.note("dissolved_gas.concentration", scene_.dissolvedGas.concentration,
                      " mol/m^3 is under the saturation of ", saturation, ": bubbles shrink");
+  }
+
+  /// A bubble of which all places that are drawn lie in solids is left out.
+  void lintSourceRooms() {
+    if (scene_.solids.empty() || scene_.bubbleSources.empty()) return;
+    const SignedDistance psi = solidDistance(scene_);
+    for (std::size_t i = 0; i < scene_.bubbleSources.size(); ++i) {
+      const double free = roomShare(scene_.bubbleSources[i].shape, domain_, psi);
+      if (free < kLeastRoom)
+        findings_.warn(objectLabel("bubble_source", scene_.bubbleSources[i].name, i), "has only ", 100 * free,
+                       " % of its region outside solids: ", 100 * std::pow(1 - free, BubbleSources::kPlaces),
+                       " % of its bubbles will find no place and be left out; move it or the solid");
+    }
   }
 
   /// A bubble that a solid holds and that does not grow blocks its site for ever.
@@ -148,7 +163,7 @@ class Linter {
   }
 
   double closedArea() const {
-    const Eigen::Vector3d& size = scene_.domain.size;
+    const Eigen::Vector3d size = domain_.size();
     double area = 0;
     for (int side = 0; side < 6; ++side)
       if (scene_.domain.closed[side]) area += size.prod() / size[side / 2];
@@ -171,7 +186,7 @@ class Linter {
     if (share > 1 - kDryShare)
       findings_.warn("domain", "is full of liquid: there is no surface for bubbles to gather at");
     const double end = scene_.time.frames / scene_.time.fps;
-    const double room = (1 - share) * scene_.domain.size.prod();
+    const double room = (1 - share) * domain_.volume();
     const bool closed =
         std::all_of(scene_.domain.closed.begin(), scene_.domain.closed.end(), [](bool c) { return c; });
     if (pouredUntil(scene_, end) > room)
@@ -190,7 +205,7 @@ class Linter {
   void lintPool() {
     const Eigen::Vector3d g = scene_.liquid.gravity,
                           up = g.norm() > 0 ? Eigen::Vector3d(-g.normalized()) : Eigen::Vector3d::UnitY();
-    const Eigen::Vector3d low = scene_.domain.lower, high = low + scene_.domain.size;
+    const Eigen::Vector3d &low = domain_.lower, &high = domain_.upper;
     double bottom = 0, top = 0;
     for (int axis = 0; axis < 3; ++axis) {
       bottom += std::min(up[axis] * low[axis], up[axis] * high[axis]);
@@ -205,6 +220,7 @@ class Linter {
   }
 
   const Scene& scene_;
+  const DomainBox domain_;
   double dx_;
   FindingList findings_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/domain_box.h"
 #include "coupling/scene_builder.h"
 
 namespace spume::coupling {
@@ -23,12 +24,13 @@ double initialWetShare(const Scene& scene) {
   constexpr int kPoints = 32;
   const SignedDistance phi = scene.stillPool.enabled ? poolPhi(scene) : initialPhi(scene),
                        psi = solidDistance(scene);
+  const DomainBox domain(scene);
   int wet = 0;
   for (int i = 0; i < kPoints; ++i)
     for (int j = 0; j < kPoints; ++j)
       for (int k = 0; k < kPoints; ++k) {
         const Eigen::Array3d place = (Eigen::Array3d(i, j, k) + 0.5) / kPoints;
-        const Eigen::Vector3d x = scene.domain.lower + (place * scene.domain.size.array()).matrix();
+        const Eigen::Vector3d x = domain.lower + (place * domain.size().array()).matrix();
         wet += phi(x) < 0 && psi(x) > 0;
       }
   return wet / std::pow(kPoints, 3);

@@ -62,12 +62,6 @@ Eigen::Vector3d vesselMiddle(const ShapeSpec& vessel) {
   return vessel.centre + 0.5 * (vessel.innerHeight - vessel.bottomThickness) * vessel.axis.normalized();
 }
 
-std::string text(const Eigen::Vector3d& v) {
-  std::string all;
-  for (int axis = 0; axis < 3; ++axis) all.append(axis == 0 ? "[" : ", ").append(exactText(v[axis]));
-  return all.append("]");
-}
-
 bool needsRadius(ShapeKind kind) { return kind == ShapeKind::sphere || kind == ShapeKind::cylinder; }
 bool needsAxis(ShapeKind kind) {
   return kind == ShapeKind::cylinder || kind == ShapeKind::halfSpace || kind == ShapeKind::vessel;
@@ -146,8 +140,8 @@ bool isFromFile(ShapeKind kind) { return kind == ShapeKind::mesh || kind == Shap
 
 std::string defect(const ShapeSpec& shape) {
   if (shape.kind == ShapeKind::box && !((shape.upper - shape.lower).minCoeff() > 0))
-    return "upper must exceed lower on every axis; lower is " + text(shape.lower) + ", upper " +
-           text(shape.upper) + " [m]";
+    return "upper must exceed lower on every axis; lower is " + exactText(shape.lower) + ", upper " +
+           exactText(shape.upper) + " [m]";
   if (needsRadius(shape.kind) && !(shape.radius > 0)) return "radius must be greater than 0 [m]";
   if (shape.kind == ShapeKind::cylinder && !(shape.height > 0)) return "height must be greater than 0 [m]";
   if (shape.kind == ShapeKind::vessel &&

@@ -29,6 +29,7 @@ struct StepReport {
   double poured = 0, drained = 0;      ///< totals since the start [m^3]
   double immersedGas = 0;              ///< [m^3]
   std::size_t births = 0, bursts = 0;  ///< in this step
+  std::uint64_t sourceUnplaced = 0;    ///< bubbles of sources that found no place, since the start
   double gasInSolution = 0;            ///< where it is followed, at the pressure of the air [m^3]
   double secondsLiquid = 0, secondsEntrainment = 0, secondsSupply = 0, secondsFoam = 0;
   std::vector<Event> events;
@@ -57,17 +58,22 @@ struct SimulationState {
   double foamDt = std::numeric_limits<double>::infinity();  ///< longest next step the foam asked for [s]
 };
 
+class LiquidPart;
+struct SharedStages;
+
 /// Liquid and foam of one scene, advanced together.
 class Simulation {
  public:
   /// Throws InvalidParameter of either module, or SceneError.
   explicit Simulation(const Scene& scene);
+  /// The same with a liquid of the caller's own in place of the scene's.
+  Simulation(const Scene& scene, std::unique_ptr<LiquidPart> liquid);
   /// Continues from a checkpoint of the same scene.
   Simulation(const Scene& scene, SimulationState state);
   ~Simulation();
 
-  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. A step that fails
-  /// leaves the state as it was; dt is halved up to 4 times before NumericalFailure is thrown.
+  /// One shared step of at most dt [s]: liquid, entrainment, foam, events, statistics. dt is halved
+  /// up to 4 times before NumericalFailure is thrown. Whatever is thrown, the state is as it was before.
   StepReport step(double dt);
   /// Steps that sum exactly to the next frame's time. `onStep` is called after each.
   FrameReport advanceFrame(const std::function<void(const StepReport&)>& onStep = {});
@@ -80,13 +86,13 @@ class Simulation {
   /// What the foam asks of the liquid and the solids now; to be used before the next step.
   std::unique_ptr<foam::LiquidSampler> fields() const;
   const foam::BubbleStore& bubbles() const;
+  const SupplyState& supply() const;
   const foam::FoamTopology& topology() const;  ///< row k is the bubble topologyIds()[k]
   const std::vector<std::uint64_t>& topologyIds() const;
   SimulationState state() const;
 
  private:
-  struct Internals;
-  std::unique_ptr<Internals> internals_;
+  std::unique_ptr<SharedStages> stages_;
 };
 
 }  // namespace spume::coupling

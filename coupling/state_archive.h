@@ -171,15 +171,15 @@ void archive(Archive& a, foam::BubbleStore& bubbles) {
 template <typename Archive>
 void archive(Archive& a, GasLedger& gas) {
   auto& [bornMarkers, bornPockets, bornSources, bornNucleation, grown, burst, killed, left, notEntrained,
-         inBubbles, inReservoirs] = gas;
+         unplaced, inBubbles, inReservoirs] = gas;
   archiveAll(a, bornMarkers, bornPockets, bornSources, bornNucleation, grown, burst, killed, left,
-             notEntrained, inBubbles, inReservoirs);
+             notEntrained, unplaced, inBubbles, inReservoirs);
 }
 
 template <typename Archive>
 void archive(Archive& a, SourceProgress& progress) {
-  auto& [births, gas] = progress;
-  archiveAll(a, births, gas);
+  auto& [births, gas, unplaced] = progress;
+  archiveAll(a, births, gas, unplaced);
 }
 
 template <typename Archive>

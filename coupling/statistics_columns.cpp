@@ -115,6 +115,9 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("bubbles_surface", "-", "at the surface", [](const R& r) { return r.foam.surface; }),
       step("bubbles_air", "-", "above it", [](const R& r) { return r.foam.air; }),
       step("births", "-", "in this step", [](const R& r) { return r.births; }),
+      step("source_unplaced", "-",
+           "bubbles of sources that found no place outside solids or in the liquid, since the start",
+           [](const R& r) { return r.sourceUnplaced; }),
       step("bursts", "-", "in this step", [](const R& r) { return r.bursts; }),
       step("contacts", "-", "films between bubbles", [](const R& r) { return r.foam.contacts; }),
       step("overlaps", "-", "overlapping pairs", [](const R& r) { return r.foam.overlaps; }),
@@ -145,6 +148,8 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("gas_left", "m^3", "gone from the domain", [](const R& r) { return r.gas.left; }),
       step("gas_not_entrained", "m^3", "lost by the level set below the onset",
            [](const R& r) { return r.gas.notEntrained; }),
+      step("gas_unplaced", "m^3", "of bubbles of sources that found no place",
+           [](const R& r) { return r.gas.unplaced; }),
       step("gas_in_bubbles", "m^3", "held at the end", [](const R& r) { return r.gas.inBubbles; }),
       step("gas_in_reservoirs", "m^3", "held at the end", [](const R& r) { return r.gas.inReservoirs; }),
       step("gas_in_solution", "m^3", "at the pressure of the air, where it is followed",
@@ -190,6 +195,8 @@ const std::vector<Column<FrameReport>>& columnsOfFrames() {
       frame("bubbles_surface", "-", "at the surface", last([](const S& s) { return s.foam.surface; })),
       frame("bubbles_air", "-", "above it", last([](const S& s) { return s.foam.air; })),
       frame("births", "-", "in the frame", sum([](const S& s) { return s.births; })),
+      frame("source_unplaced", "-", "bubbles of sources that found no place, since the start",
+            last([](const S& s) { return s.sourceUnplaced; })),
       frame("bursts", "-", "in the frame", sum([](const S& s) { return s.bursts; })),
       frame("contacts", "-", "films at the end", last([](const S& s) { return s.foam.contacts; })),
       frame("hidden", "-", "bubbles swallowed by others, at the end",
@@ -210,7 +217,11 @@ const std::vector<Column<EventRow>>& columnsOfEvents() {
   using R = EventRow;
   static const std::vector<Column<R>> kColumns{
       event("step", "-", "in which it happened", [](const R& r) { return r.step; }),
-      event("time", "s", "at which it happened", [](const R& r) { return r.event.time; }),
+      event("time", "s",
+            "burst, merge, class: end of the sub-step of the foam in which it happened; birth, kill, leave: "
+            "end "
+            "of the step",
+            [](const R& r) { return r.event.time; }),
       event("kind", "-", "birth, burst, merge, class, kill or leave",
             [](const R& r) { return nameOf(r.event.kind); }),
       event("id", "-", "of the bubble", [](const R& r) { return r.event.id; }),

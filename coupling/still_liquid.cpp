@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
+#include "coupling/domain_box.h"
 #include "coupling/shapes.h"
 #include "foam/parallel.h"
 
@@ -17,8 +17,9 @@ foam::StillPoolParams poolOf(const Scene& scene) {
   pool.gravity = scene.liquid.gravity;
   pool.density = scene.liquid.density;
   pool.surfaceHeight = scene.stillPool.level;
-  pool.lower = scene.domain.lower;
-  pool.upper = gridOf(scene).upper();
+  const DomainBox domain(scene);
+  pool.lower = domain.lower;
+  pool.upper = domain.upper;
   pool.closed = scene.domain.closed;
   return pool;
 }
@@ -128,7 +129,7 @@ StillLiquid::StillLiquid(const Scene& scene, double time) : sampler_(scene) {
   const fluid::LiquidSetup setup = buildLiquidSetup(scene);
   solids_ = fluid::buildSolidBoundary(setup.grid, setup.walls, setup.solids, 0);
   state_.grid = setup.grid;
-  state_.time = time;
+  state_.time = before_ = time;
   state_.phi = phiOnGrid(setup.grid, sampler_);
   state_.velocity = fluid::MacVelocity(setup.grid.cells);
   state_.pressureGradient = fluid::MacField<float>(setup.grid.cells);
@@ -150,14 +151,14 @@ void StillLiquid::fillPressure(const Scene& scene) {
 
 fluid::LiquidStepReport StillLiquid::step(double dt, const fluid::ImmersedGas&,
                                           const std::vector<fluid::Push>&) {
+  before_ = state_.time;
   state_.time += dt;
-  lastStep_ = dt;
   fluid::LiquidStepReport report;
   report.liquidVolume = report.targetVolume = volume_;
   return report;
 }
 
-void StillLiquid::rollBack() { state_.time -= std::exchange(lastStep_, 0.0); }
+void StillLiquid::rollBack() { state_.time = before_; }
 
 double StillLiquid::stableDt(int) const { return std::numeric_limits<double>::infinity(); }
 

@@ -67,8 +67,8 @@ class StillLiquid : public LiquidPart {
   fluid::LiquidState state_;
   fluid::DenseField<float> pressure_;  ///< [Pa], over that of the air
   fluid::SolidBoundary solids_;
-  double volume_ = 0;    ///< [m^3]
-  double lastStep_ = 0;  ///< [s]
+  double volume_ = 0;  ///< [m^3]
+  double before_ = 0;  ///< time the last step began at [s]
 };
 
 }  // namespace spume::coupling

@@ -146,8 +146,9 @@ std::string animationText(const Keys& keys, const ValueText& valueText, const Ke
 }
 
 std::string animationText(const Animated& animation) {
-  return animationText(animation.keys, exactText,
-                       [](double time, double value) { return vectorText(Eigen::Vector2d(time, value)); });
+  return animationText(
+      animation.keys, [](double value) { return exactText(value); },
+      [](double time, double value) { return vectorText(Eigen::Vector2d(time, value)); });
 }
 
 std::string animationText(const AnimatedVector& animation) {
@@ -235,6 +236,8 @@ std::string exactText(double value) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
+
+std::string exactText(const Eigen::Vector3d& vector) { return vectorText(vector); }
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";

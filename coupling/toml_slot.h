@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <Eigen/Core>
 #include <stdexcept>
 #include <string>
 
@@ -31,6 +32,8 @@ std::string rangeText(const Slot& slot, const KeyRange& range);
 
 /// Shortest text that reads back to the same double.
 std::string exactText(double value);
+/// "[1, 2, 3]", each as above.
+std::string exactText(const Eigen::Vector3d& vector);
 
 /// `text` as a TOML basic string with its quotes.
 std::string quoted(const std::string& text);

@@ -69,6 +69,21 @@ Value metaOr(const openvdb::GridBase& grid, const std::string& name, Value fallb
   return meta ? meta->value() : fallback;
 }
 
+/// What `read` takes from the opened file.
+template <typename Read>
+openvdb::GridPtrVec readFrom(const std::string& path, const Read& read) {
+  openvdb::initialize();
+  checkReadable(path);
+  try {
+    openvdb::io::File file(path);
+    constexpr bool kDelayLoad = false;  // the file may be replaced while it is in use
+    file.open(kDelayLoad);
+    return read(file);
+  } catch (const openvdb::Exception& error) {
+    throw FileError(path + ": cannot be read as OpenVDB: " + error.what());
+  }
+}
+
 }  // namespace
 
 void stampGrid(openvdb::GridBase& grid, const FrameStamp& stamp) {
@@ -97,16 +112,11 @@ void writeVdb(const std::string& path, const openvdb::GridCPtrVec& grids) {
 }
 
 openvdb::GridPtrVec readVdb(const std::string& path) {
-  openvdb::initialize();
-  checkReadable(path);
-  try {
-    openvdb::io::File file(path);
-    constexpr bool kDelayLoad = false;  // the file may be replaced while it is in use
-    file.open(kDelayLoad);
-    return *file.getGrids();
-  } catch (const openvdb::Exception& error) {
-    throw FileError(path + ": cannot be read as OpenVDB: " + error.what());
-  }
+  return readFrom(path, [](openvdb::io::File& file) { return *file.getGrids(); });
+}
+
+openvdb::GridPtrVec readVdbMetadata(const std::string& path) {
+  return readFrom(path, [](openvdb::io::File& file) { return *file.readAllGridMetadata(); });
 }
 
 }  // namespace spume::coupling

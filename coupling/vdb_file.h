@@ -19,6 +19,9 @@ void writeVdb(const std::string& path, const openvdb::GridCPtrVec& grids);
 /// All grids of a file. Throws FileError: missing, unreadable, no VDB.
 openvdb::GridPtrVec readVdb(const std::string& path);
 
+/// The same with names and metadata only, without their values.
+openvdb::GridPtrVec readVdbMetadata(const std::string& path);
+
 /// The grid called `name` with the type of Grid, or null.
 template <typename Grid>
 typename Grid::Ptr findGrid(const openvdb::GridPtrVec& grids, const std::string& name) {

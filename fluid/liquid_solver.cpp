@@ -63,12 +63,12 @@ LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std
         remaining = left == 1 ? 0 : remaining * (left - 1) / left;
       longest = 2 * taken;
     }
-  } catch (const NumericalFailure&) {
+    in.state.time = end;
+    in.measure(report);
+  } catch (...) {  // a failure of the numbers, or out of memory
     rollBack();
     throw;
   }
-  in.state.time = end;
-  in.measure(report);
   report.stages = clock.stages();
   return report;
 }

@@ -1,17 +1,12 @@
 #include "foam/foam_solver.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
 #include "foam/attraction.h"
 #include "foam/border_drift.h"
 #include "foam/classification.h"
-#include "foam/errors.h"
 #include "foam/integrator.h"
 #include "foam/kept_geometry.h"
 #include "foam/lifetime.h"
@@ -21,6 +16,8 @@
 #include "foam/parallel.h"
 #include "foam/space_order.h"
 #include "foam/stage_clock.h"
+#include "foam/step_checks.h"
+#include "foam/step_summary.h"
 #include "foam/surroundings.h"
 #include "foam/volume_correction.h"
 #include "foam/volume_patch.h"
@@ -41,56 +38,6 @@ constexpr double kFewCells = 0.05, kFewAtFirst = 0.01;
 /// Share of the pairs that may move faster than the step resolves: bubbles that rise into a pile. Contacts
 /// are implicit and stop them within a step of any length; a froth that moves as a whole is more than these.
 constexpr double kArrivals = 0.05;
-
-void requireUsable(const BubbleStore& bubbles, double dt) {
-  if (!(dt > 0) || !std::isfinite(dt))
-    throw InvalidParameter("foam step: dt = " + std::to_string(dt) + " s; it must be positive and finite");
-  const auto isUsable = [&](std::size_t i) {
-    const bool finite = bubbles.position[i].allFinite() && bubbles.velocity[i].allFinite() &&
-                        std::isfinite(bubbles.radius[i]) && std::isfinite(bubbles.gas[i]);
-    return finite && bubbles.radius[i] > 0 && bubbles.gas[i] > 0;
-  };
-  if (reduceIndices(bubbles.size(), true, isUsable, std::logical_and<>())) return;
-  for (std::size_t i = 0; i < bubbles.size(); ++i)
-    if (!isUsable(i))
-      throw NumericalFailure("foam: bubble " + std::to_string(bubbles.id[i]) +
-                             " has a position, velocity, radius or gas that is not finite, or no size");
-}
-
-void requireFinite(const BubbleStore& bubbles) {
-  const auto isFinite = [&](std::size_t i) {
-    return bubbles.position[i].allFinite() && bubbles.velocity[i].allFinite();
-  };
-  if (reduceIndices(bubbles.size(), true, isFinite, std::logical_and<>())) return;
-  for (std::size_t i = 0; i < bubbles.size(); ++i)
-    if (!isFinite(i))
-      throw NumericalFailure("foam: the step left bubble " + std::to_string(bubbles.id[i]) +
-                             " without a finite place");
-}
-
-void sumUp(const BubbleStore& bubbles, FoamStepReport& report) {
-  for (std::size_t i = 0; i < bubbles.size(); ++i) {
-    report.liquid += bubbles.type[i] == BubbleClass::liquid;
-    report.surface += bubbles.type[i] == BubbleClass::surface;
-    report.air += bubbles.type[i] == BubbleClass::air;
-    report.hidden += bubbles.hidden[i], report.clamped += bubbles.clamped[i];
-    report.gas += bubbles.gas[i];
-    report.maxSpeed = std::max(report.maxSpeed, bubbles.velocity[i].norm());
-  }
-}
-
-void summariseVolumes(const BubbleStore& bubbles, FoamStepReport& report) {
-  std::vector<double> error;
-  error.reserve(bubbles.size());
-  for (std::size_t i = 0; i < bubbles.size(); ++i)
-    if (!bubbles.hidden[i] && !bubbles.clamped[i])
-      error.push_back(std::abs(bubbles.volume[i] / bubbles.gas[i] - 1));
-  if (error.empty()) return;
-  const auto middle = error.begin() + static_cast<std::ptrdiff_t>(error.size() / 2);
-  std::nth_element(error.begin(), middle, error.end());
-  report.volumeErrorMedian = *middle;
-  report.volumeErrorMax = *std::max_element(middle, error.end());
-}
 
 }  // namespace
 
@@ -130,13 +77,13 @@ struct FoamSolver::Internals {
   void findReachableWalls(const LiquidSampler& liquid);
   void measure();
   void measureStart();
+  void moveTogether(const LiquidSampler& liquid, double dt, FoamStepReport& report);
   void noteImpulses(double dt);
   void sampleEnd(const LiquidSampler& liquid);
   bool endLivesAndReport(double dt, FoamStepReport& report);
   std::vector<std::int32_t> livingRows() const;
   void removeEnded(bool hasEnded);
   void holdVolumes(const LiquidSampler& liquid);
-  void summarise(const BubbleStore& bubbles, FoamStepReport& report) const;
   void reportClassChanges(const BubbleStore& before, FoamStepReport& report) const;
 };
 
@@ -221,6 +168,19 @@ void FoamSolver::Internals::holdVolumes(const LiquidSampler& liquid) {
   kept.note(next, walls);
 }
 
+/// Solves for all velocities at once, and goes along them.
+void FoamSolver::Internals::moveTogether(const LiquidSampler& liquid, double dt, FoamStepReport& report) {
+  const SolveReport solve = integrator.couple(next, topology, neighbours, walls, dt);
+  report.solverIterations = solve.iterations, report.solverResidual = solve.residual;
+  report.solverFellBack = solve.fellBack;
+  integrator.advance(dt, next);
+  drift.advance(next);
+  requireSound(next, "after the implicit solve of a step", dt);
+  report.pushedOut = keepOutOfSolids(liquid, next);
+  report.kineticEnergy = integrator.kineticEnergy();
+  noteImpulses(dt);
+}
+
 void FoamSolver::Internals::noteImpulses(double dt) {
   dragImpulse.resize(next.size());
   forEachIndex(next.size(), [&](std::size_t i) { dragImpulse[i] = integrator.dragImpulse(i, dt); });
@@ -297,12 +257,6 @@ void FoamSolver::Internals::removeEnded(bool hasEnded) {
   }
 }
 
-void FoamSolver::Internals::summarise(const BubbleStore& bubbles, FoamStepReport& report) const {
-  report.bubbles = bubbles.size();
-  report.contacts = topology.films.size(), report.overlaps = topology.overlaps.size();
-  tbb::parallel_invoke([&] { sumUp(bubbles, report); }, [&] { summariseVolumes(bubbles, report); });
-}
-
 FoamSolver::FoamSolver(FoamParams params) : internals_(std::make_unique<Internals>(std::move(params))) {}
 FoamSolver::~FoamSolver() = default;
 const std::vector<DragImpulse>& FoamSolver::dragImpulses() const { return internals_->impulses; }
@@ -332,14 +286,7 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   s.integrator.predict(s.around, s.pull, dt, s.next);
   s.findReachableWalls(liquid);
   clock.end("predict");
-  const SolveReport solve = s.integrator.couple(s.next, s.topology, s.neighbours, s.walls, dt);
-  clock.end("solve");
-  s.integrator.advance(dt, s.next);
-  s.drift.advance(s.next);
-  requireFinite(s.next);
-  report.pushedOut = keepOutOfSolids(liquid, s.next);
-  report.kineticEnergy = s.integrator.kineticEnergy();
-  s.noteImpulses(dt);
+  s.moveTogether(liquid, dt, report);
   clock.end("solve");
   s.sampleEnd(liquid);
   relabel(s.phiEnd, s.next);
@@ -350,10 +297,8 @@ FoamStepReport FoamSolver::step(BubbleStore& bubbles, const LiquidSampler& liqui
   relabel(s.phiEnd, s.next);  // again: labels depend on radii
   s.reportClassChanges(bubbles, report);
   clock.end("events");
-  report.solverIterations = solve.iterations, report.solverResidual = solve.residual;
-  report.solverFellBack = solve.fellBack;
   s.giveBack(bubbles);
-  s.summarise(bubbles, report);
+  summarise(bubbles, s.topology, report);
   return report;
 }
 

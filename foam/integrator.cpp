@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "foam/errors.h"
+#include "foam/failure_text.h"
 #include "foam/forces/air_drag.h"
 #include "foam/forces/buoyancy.h"
 #include "foam/forces/inertia.h"
@@ -72,13 +72,20 @@ LoneBubble loneBubble(const FoamParams& params, const DragLawTable& dragLaw, con
 /// As a CouplingBlock keeps it.
 inline double rounded(double x) { return static_cast<float>(x); }
 
-[[noreturn]] void failToConverge(const SolveReport& report, std::size_t bubbles, double dt) {
-  std::ostringstream message;
-  message
-      << "foam: the implicit step of " << bubbles << " bubbles did not converge: relative residual "
-      << report.residual << " after " << report.iterations << " iterations at dt = " << dt
-      << " s, and the direct solver could not take over; use a shorter step or raise foam.solverIterations";
-  throw NumericalFailure(message.str());
+/// `left`: the residual of each bubble's row [kg m/s].
+[[noreturn]] void failToConverge(const SolveReport& report, const Vectors3& left, const BubbleStore& bubbles,
+                                 double dt) {
+  const auto size = [](const Eigen::Vector3d& v) {
+    return v.allFinite() ? v.norm() : std::numeric_limits<double>::infinity();
+  };
+  const auto less = [&](const auto& a, const auto& b) { return size(a) < size(b); };
+  const auto worst = std::max_element(left.begin(), left.end(), less);
+  throw NumericalFailure(
+      joined("foam: the implicit step of ", bubbles.size(), " bubbles did not converge: relative residual ",
+             report.residual, " after ", report.iterations, " iterations at dt = ", dt, " s, worst for ",
+             placeOf(bubbles, static_cast<std::size_t>(worst - left.begin())), " with ", worst->norm(),
+             " kg m/s, and the direct solver could not take over; use a shorter step or raise "
+             "foam.solverIterations"));
 }
 
 }  // namespace
@@ -111,7 +118,7 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
   forEachIndex(n, [&](std::size_t i) { assembleRow(i, neighbours); });
   contacts_.begin(walls, motion_, mass_, dt, change_, system_, impulse_);
   const SolveReport report = solveWithContacts(dt);
-  if (!report.converged) failToConverge(report, n, dt);
+  if (!report.converged) failToConverge(report, solver_.left(), bubbles, dt);
   forEachIndex(n, [&](std::size_t i) { velocity_[i] = motion_[i].velocity + change_[i]; });
   return report;
 }

@@ -1,8 +1,10 @@
 #include "foam/near_walls.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "foam/errors.h"
+#include "foam/failure_text.h"
 #include "foam/parallel.h"
 
 namespace spume::foam {
@@ -59,7 +61,12 @@ void feel(const LiquidSampler& liquid, const BubbleStore& bubbles, const std::ve
   liquid.psi(feelers.point, psi), liquid.gradPsi(feelers.point, away);
   liquid.solidVelocity(feelers.point, velocity), liquid.solidIndex(feelers.point, solid);
   if (!psi.allFinite() || !away.allFinite() || !velocity.allFinite())
-    throw NumericalFailure("the liquid sampler returned a psi, gradPsi or solidVelocity that is not finite");
+    for (Eigen::Index f = 0; f < n; ++f)
+      if (!std::isfinite(psi[f]) || !away.col(f).allFinite() || !velocity.col(f).allFinite())
+        throw NumericalFailure(joined("foam: the liquid sampler returned psi = ", psi[f], ", gradPsi = ",
+                                      textOf(away.col(f)), ", solidVelocity = ", textOf(velocity.col(f)),
+                                      ", not all finite, at ", textOf(feelers.point.col(f)), " m, where ",
+                                      placeOf(bubbles, feelers.owner[f]), " looks for walls"));
   for (Eigen::Index f = 0; f < n; ++f) {
     NearWalls& known = walls[feelers.owner[f]];
     const double here = psi[f] - away.col(f).dot(feelers.offset.col(f));

@@ -1,19 +1,25 @@
 #include "foam/surroundings.h"
 
 #include <functional>
-#include <string>
 
 #include "foam/errors.h"
+#include "foam/failure_text.h"
 #include "foam/parallel.h"
 
 namespace spume::foam {
 namespace {
 
+/// `field` has a column a point.
 template <typename Field>
-void requireFinite(const Field& field, const char* name) {
-  const auto isFinite = [&](std::size_t i) { return field.col(static_cast<Eigen::Index>(i)).allFinite(); };
-  if (!reduceIndices(static_cast<std::size_t>(field.cols()), true, isFinite, std::logical_and<>()))
-    throw NumericalFailure(std::string("the liquid sampler returned a ") + name + " that is not finite");
+void requireFinite(const Field& field, const char* name, Points x) {
+  const auto value = [&](std::size_t i) { return field.col(static_cast<Eigen::Index>(i)); };
+  const auto isFinite = [&](std::size_t i) { return value(i).allFinite(); };
+  const auto points = static_cast<std::size_t>(x.cols());
+  if (reduceIndices(points, true, isFinite, std::logical_and<>())) return;
+  for (std::size_t i = 0; i < points; ++i)
+    if (!isFinite(i))
+      throw NumericalFailure(joined("foam: the liquid sampler returned ", name, " = ", value(i).transpose(),
+                                    ", not finite, at ", textOf(x.col(static_cast<Eigen::Index>(i))), " m"));
 }
 
 }  // namespace
@@ -26,7 +32,7 @@ void Surroundings::sample(const LiquidSampler& liquid, Points x) {
   if (n == 0) return;
   liquid.gradPhi(x, gradPhi);
   liquid.gradPressure(x, gradPressure);
-  requireFinite(gradPhi, "gradPhi"), requireFinite(gradPressure, "gradPressure");
+  requireFinite(gradPhi, "gradPhi", x), requireFinite(gradPressure, "gradPressure", x);
 }
 
 void Surroundings::sampleFlow(const LiquidSampler& liquid, Points x) {
@@ -35,7 +41,7 @@ void Surroundings::sampleFlow(const LiquidSampler& liquid, Points x) {
   if (n == 0) return;
   liquid.phi(x, phi);
   liquid.velocity(x, liquidVelocity);
-  requireFinite(phi.transpose(), "phi"), requireFinite(liquidVelocity, "velocity");
+  requireFinite(phi.transpose(), "phi", x), requireFinite(liquidVelocity, "velocity", x);
 }
 
 void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
@@ -46,8 +52,8 @@ void Surroundings::sampleSolids(const LiquidSampler& liquid, Points x) {
   liquid.gradPsi(x, gradPsi);
   liquid.solidVelocity(x, solidVelocity);
   liquid.solidIndex(x, solid);
-  requireFinite(psi.transpose(), "psi"), requireFinite(gradPsi, "gradPsi"),
-      requireFinite(solidVelocity, "solidVelocity");
+  requireFinite(psi.transpose(), "psi", x), requireFinite(gradPsi, "gradPsi", x);
+  requireFinite(solidVelocity, "solidVelocity", x);
 }
 
 }  // namespace spume::foam

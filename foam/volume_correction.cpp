@@ -15,8 +15,6 @@ namespace {
 constexpr double kLargestGrowth = 0.25;
 constexpr double kNewtonTolerance = 1e-3;  ///< relative residual, below the error of linearising
 
-double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
-
 bool hasCell(const FoamTopology& topology, std::size_t i) {
   return !topology.hidden[i] && topology.volume[i] > 0;
 }
@@ -29,6 +27,8 @@ void setRadius(const FoamParams& params, std::size_t i, double wanted, BubbleSto
 }
 
 }  // namespace
+
+double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
 double gasRadius(double gas) { return std::cbrt(3 * gas / (4 * std::numbers::pi)); }
 

@@ -10,6 +10,9 @@
 
 namespace spume::foam {
 
+/// Volume [m^3] of a ball of `radius` [m].
+double ballVolume(double radius);
+
 /// Radius of the ball that holds `gas` alone [m].
 double gasRadius(double gas);
 

@@ -33,6 +33,9 @@ coupling::Scene sceneOf(SceneOptions options, const fs::path& folder) {
                              std::any_of(options.set.begin(), options.set.end(),
                                          [&](const std::string& set) { return set.starts_with(kFrames); });
   options.path = (folder / "scene.toml").string();
+  if (coupling::readScene(options.path).stillPool.enabled)
+    throw coupling::SceneError(
+        folder.string() + ": has no solved liquid, but a pool at rest; run its scene with --set instead");
   options.set.push_back("liquid_cache.run=" + folder.string());
   coupling::Scene scene = options.read();
   const int last = coupling::listCache((folder / "liquid").string(), "liquid", "vdb").lastFrame();

@@ -1,5 +1,4 @@
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "coupling/bubble_table.h"
 #include "coupling/cell_table.h"
 #include "coupling/film_cache.h"
+#include "coupling/stopwatch.h"
 #include "foam/power_cells.h"
 #include "foam/power_diagram.h"
 #include "foam/soap_films.h"
@@ -24,12 +24,6 @@ struct MeasureOptions {
   std::string engine = "local";
   bool json = false;
 };
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 bool sameFile(const std::string& a, const std::string& b) {
   std::error_code unknown;
@@ -92,20 +86,20 @@ foam::BubbleStore storeOf(const coupling::BubbleTable& table) {
 }
 
 int measure(const MeasureOptions& options) {
-  const Clock::time_point start = Clock::now();
+  const coupling::Stopwatch whole;
   checkPaths(options);
   checkEngine(options);
   const coupling::BubbleTable bubbles = coupling::readBubbleTable(options.bubbles);
   if (const std::string words = coupling::wordsOnUnread(options.bubbles, bubbles); !words.empty())
     std::cerr << "warning: " << words << '\n';
-  const Clock::time_point read = Clock::now();
+  const coupling::Stopwatch geometry;
   const foam::FoamTopology topology = topologyOf(bubbles, options.engine);
-  const double geometrySeconds = secondsSince(read);
+  const double geometrySeconds = geometry.seconds();
   if (!options.cells.empty()) coupling::writeCellTable(options.cells, bubbles, topology);
   if (!options.contacts.empty()) coupling::writeContactTable(options.contacts, bubbles, topology);
   if (!options.films.empty())
     coupling::writeFilmsPly(options.films, foam::soapFilms(storeOf(bubbles)), bubbles.id, {});
-  const Report report = reportOf(coupling::totalsOf(topology), geometrySeconds, secondsSince(start));
+  const Report report = reportOf(coupling::totalsOf(topology), geometrySeconds, whole.seconds());
   std::cout << (options.json ? report.json() : report.text());
   return kDone;
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "coupling/drop_cache.h"
 #include "coupling/liquid_cache.h"
 #include "coupling/scene_toml.h"
+#include "coupling/stopwatch.h"
 #include "coupling/vdb_liquid_sampler.h"
 #include "foam/soap_films.h"
 
@@ -136,7 +136,7 @@ void renderFrame(const coupling::Scene& scene, const std::string& folder, const 
 }
 
 int render(const RenderOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const coupling::Stopwatch watch;
   coupling::Scene scene = coupling::readScene(options.folder + "/scene.toml");
   if (!options.films.empty())
     scene.look.films = options.films == "curved" ? coupling::FilmLook::curved : coupling::FilmLook::plane;
@@ -164,8 +164,7 @@ int render(const RenderOptions& options) {
                             target + "/" + options.style + ".mp4")
                : "";
   if (!problem.empty()) std::cout << problem << '\n';
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  std::cout << "done: " << done << " pictures in " << formatDuration(spent.count()) << std::endl;
+  std::cout << "done: " << done << " pictures in " << formatDuration(watch.seconds()) << std::endl;
   return kDone;
 }
 

@@ -1,7 +1,6 @@
 #include "apps/commands/reproduce.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -12,6 +11,7 @@
 #include "apps/run_session.h"
 #include "apps/stop_request.h"
 #include "coupling/atomic_file.h"
+#include "coupling/stopwatch.h"
 
 namespace spume::apps {
 namespace {
@@ -33,13 +33,12 @@ StudyContext contextOf(const Reproduction& table, const ReproduceOptions& option
 }
 
 std::vector<ResultRow> perform(const Study& study, const StudyContext& context) {
-  const auto start = std::chrono::steady_clock::now();
+  const coupling::Stopwatch watch;
   std::vector<ResultRow> rows = study.run(context);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   for (ResultRow& row : rows) {
     row.study = study.key;
     if (row.title.empty()) row.title = study.title;
-    row.seconds = spent.count();
+    row.seconds = watch.seconds();
   }
   return rows;
 }

@@ -4,6 +4,7 @@
 #include "apps/reproduce/scene_figures.h"
 #include "apps/reproduce/scene_studies.h"
 #include "apps/reproduce/svg_plot.h"
+#include "coupling/domain_box.h"
 #include "foam/soap_films.h"
 
 namespace spume::apps {
@@ -22,7 +23,8 @@ constexpr double kRandomFilms = 24, kRandomBorders = 36, kWellUnderHalf = 0.45;
 constexpr double kJump = 0.1;
 
 std::vector<double> layerCounts(const SceneRun& run) {
-  const Eigen::Vector3d lower = run.scene.domain.lower, size = run.scene.domain.size;
+  const coupling::DomainBox domain(run.scene);
+  const Eigen::Vector3d &lower = domain.lower, size = domain.size();
   std::vector<double> layers;
   for (int i = 1; i <= kLinesAcross; ++i)
     for (int k = 1; k <= kLinesAcross; ++k)

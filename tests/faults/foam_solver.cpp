@@ -21,6 +21,20 @@ class BrokenPool : public StillPool {
   }
 };
 
+/// A pool whose walls move by nonsense where they are seen from over 1 mm above the floor.
+class BrokenWalls : public StillPool {
+ public:
+  explicit BrokenWalls(const StillPoolParams& params) : StillPool(params), floor_(params.lower.y()) {}
+  void solidVelocity(Points x, Vectors out) const override {
+    StillPool::solidVelocity(x, out);
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      if (x(1, i) > floor_ + 1e-3) out(0, i) = kNan;
+  }
+
+ private:
+  double floor_;
+};
+
 BubbleStore threeBubbles() {
   BubbleStore bubbles;
   for (int i = 0; i < 3; ++i) bubbles.add(bubbleAt({1.5e-3 * i, -5e-3, 0}, 1e-3));
@@ -46,18 +60,35 @@ void expectRefusal(BubbleStore bubbles, const LiquidSampler& pool, double dt, co
 
 TEST(FoamFaults, NanInTheStoreIsNamedAndNothingChanges) {
   const StillPool pool = openPool(makePreset(Preset::physical));
+  const char* const kReasons[] = {
+      "bubble 0 at [nan, -0.005, 0] m at the start of a step of 0.01 s: its place is not finite",
+      "its velocity of [0, 0, nan] m/s is not finite", "its radius of nan m is not positive",
+      "its gas of -1e-09 m^3 is not positive"};
   for (int column = 0; column < 4; ++column) {
     BubbleStore bubbles = threeBubbles();
     if (column == 0) bubbles.position[0].x() = kNan;
     if (column == 1) bubbles.velocity[0].z() = kNan;
     if (column == 2) bubbles.radius[0] = kNan;
     if (column == 3) bubbles.gas[0] = -1e-9;
-    expectRefusal<NumericalFailure>(bubbles, pool, 0.01, "bubble 0");
+    expectRefusal<NumericalFailure>(bubbles, pool, 0.01, kReasons[column]);
   }
 }
 
 TEST(FoamFaults, NanFromTheLiquidIsRefused) {
-  expectRefusal<NumericalFailure>(threeBubbles(), BrokenPool(StillPoolParams()), 0.01, "velocity");
+  expectRefusal<NumericalFailure>(threeBubbles(), BrokenPool(StillPoolParams()), 0.01, "velocity = ");
+  expectRefusal<NumericalFailure>(threeBubbles(), BrokenPool(StillPoolParams()), 0.01, ", -0.005, 0] m");
+}
+
+/// From its wall a bubble looks a radius up for another one, and is told nonsense there.
+TEST(FoamFaults, NanFromTheLiquidWhereABubbleLooksForWallsIsRefused) {
+  StillPoolParams params;
+  params.lower = {-1, -0.01, -1}, params.upper = {1, 1, 1};
+  params.closed = {true, true, true, true, true, true};
+  BubbleStore bubbles;
+  for (int i = 0; i < 3; ++i) bubbles.add(bubbleAt({5e-3 * i, -9.5e-3, 0}, 1e-3));
+  const char* const kParts[] = {"solidVelocity = [nan, 0, 0], not all finite, at [",
+                                ", -0.0085, 0] m, where bubble ", ", -0.0095, 0] m looks for walls"};
+  for (const char* part : kParts) expectRefusal<NumericalFailure>(bubbles, BrokenWalls(params), 0.01, part);
 }
 
 TEST(FoamFaults, AStepMustBePositiveAndFinite) {
@@ -80,6 +111,7 @@ TEST(FoamFaults, ASolveThatRunsOutOfIterationsIsTakenOverByTheDirectSolverAndSay
 TEST(FoamFaults, ASolveThatDoesNotConvergeIsReportedAndChangesNothing) {
   const StillPool pool = openPool(makePreset(Preset::physical));
   expectRefusal<NumericalFailure>(threeBubbles(), pool, 1e200, "did not converge");
+  expectRefusal<NumericalFailure>(threeBubbles(), pool, 1e200, ", worst for bubble ");
 }
 
 TEST(FoamFaults, EveryParameterOutOfRangeIsNamed) {

@@ -93,6 +93,28 @@ TEST(BubbleSupply, AResumedRunIsTheUninterruptedOne) {
   EXPECT_GT(whole.bubbles().size(), 50u);
 }
 
+/// In water that hardly covers it a source loses bubbles: their gas is booked, but not as born.
+TEST(BubbleSupply, BubblesWithoutAPlaceAreBookedApart) {
+  Scene scene = fizz();
+  scene.stillPool.level = 0.005;
+  scene.bubbles.clear();
+  Simulation whole(scene);
+  FrameReport last;
+  for (int frame = 0; frame < 5; ++frame) whole.advanceFrame();
+  Simulation resumed(scene, whole.state());
+  for (int frame = 0; frame < 5; ++frame) last = whole.advanceFrame();
+  const StepReport step = last.steps.back();
+  const SourceProgress& source = whole.supply().sources.at(0);
+  EXPECT_GT(step.sourceUnplaced, 5u);
+  EXPECT_LT(step.sourceUnplaced, source.births);
+  EXPECT_EQ(step.sourceUnplaced, source.unplaced);
+  EXPECT_NEAR(step.gas.bornSources + step.gas.unplaced, source.gas, kBooks * source.gas);
+  EXPECT_LE(std::abs(step.gas.imbalance()), kBooks * step.gas.entered());
+  for (int frame = 0; frame < 5; ++frame) last = resumed.advanceFrame();
+  EXPECT_EQ(last.steps.back().sourceUnplaced, step.sourceUnplaced);
+  EXPECT_EQ(last.steps.back().gas.unplaced, step.gas.unplaced);
+}
+
 TEST(BubbleSupply, BubblesThatStickGrowUntilTheyLeave) {
   Scene scene = fizz();
   scene.bubbleSources.clear(), scene.bubbleKills.clear(), scene.bubbles.clear();

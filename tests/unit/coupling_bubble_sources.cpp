@@ -5,6 +5,7 @@
 
 #include "coupling/bubble_sources.h"
 #include "coupling/still_liquid.h"
+#include "foam/volume_correction.h"
 #include "tests/support/coupling_shapes.h"
 
 namespace spume::coupling {
@@ -31,7 +32,7 @@ std::vector<Blown> blownUntil(const Scene& scene, double end, double dt) {
   std::vector<SourceProgress> progress;
   std::vector<Blown> all;
   for (int step = 1; step * dt <= end * (1 + 1e-12); ++step)
-    for (const Blown& blown : sources.step(step * dt, pool, bubbles, progress)) {
+    for (const Blown& blown : sources.step(step * dt, pool, bubbles, progress).bubbles) {
       bubbles.add(blown.bubble);
       all.push_back(blown);
     }
@@ -97,6 +98,37 @@ TEST(BubbleSources, StayDryWhereThereIsNoLiquidAndOutOfSolids) {
   EXPECT_NEAR(static_cast<double>(all.size()), 200, 1);
   for (const Blown& blown : all)
     EXPECT_GE((blown.bubble.position - Eigen::Vector3d(0.05, 0.03, 0.05)).norm(), 0.02 + blown.bubble.radius);
+}
+
+/// Which bubbles find no place follows from their numbers alone; later liquid is not filled with those.
+TEST(BubbleSources, CountWhatFindsNoPlaceAndItsGas) {
+  Scene scene = sourceScene();
+  scene.stillPool.level = 0.012;  // over 2 of the 40 mm of the region
+  const BubbleSources sources(scene);
+  std::vector<SourceProgress> progress;
+  double placed = 0, unplaced = 0;
+  std::uint64_t bubbles = 0;
+  for (int step = 1; step <= 100; ++step) {
+    const BlownStep blown = sources.step(step * 0.01, PoolSampler(scene), {}, progress);
+    for (const Blown& one : blown.bubbles) placed += foam::ballVolume(one.bubble.radius);
+    unplaced += blown.unplacedGas;
+    bubbles += blown.bubbles.size();
+  }
+  EXPECT_GT(bubbles, 20u);
+  EXPECT_GT(progress[0].unplaced, 20u);
+  EXPECT_EQ(bubbles + progress[0].unplaced, progress[0].births);
+  EXPECT_NEAR(placed + unplaced, progress[0].gas, 1e-12 * progress[0].gas);
+  const std::vector<std::string> warnings = unplacedWarnings(scene, progress);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("bubble_source 0: " + std::to_string(progress[0].unplaced) + " of its "),
+            std::string::npos)
+      << warnings[0];
+  scene.stillPool.level = 0.08;
+  const std::uint64_t before = progress[0].births;
+  EXPECT_LE(sources.step(1.01, PoolSampler(scene), {}, progress).bubbles.size(), 3u);  // 200 a second
+  EXPECT_LE(progress[0].births, before + 3);
+  progress[0].unplaced = 0;
+  EXPECT_TRUE(unplacedWarnings(scene, progress).empty());
 }
 
 TEST(BubbleSources, DifferWithTheSeedAndFromEachOther) {

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "coupling/foam_objects.h"
 #include "coupling/room_lint.h"
 #include "coupling/scene_lint.h"
 #include "coupling/scene_toml.h"
@@ -83,6 +84,20 @@ TEST(SceneLint, WhatHasNoRoomOnTheGridIsNamed) {
   scene.inflows.clear();
   scene.solids[0].shape = test::boxShape({-1, -1, -1}, {1, 1, 1});
   EXPECT_TRUE(mentions(lintScene(scene), "domain", "all solid"));
+}
+
+/// Of 16 places a bubble finds none outside the solid in 0.75^16 = 1 % of all cases.
+TEST(SceneLint, SourcesThatLieMostlyInSolidsAreNamed) {
+  Scene scene = pouring();
+  scene.bubbleSources.resize(1);
+  scene.bubbleSources[0].shape = test::boxShape({0.06, 0.02, 0.06}, {0.1, 0.06, 0.1});
+  scene.solids = {test::solidOf("slab", test::boxShape({0, 0, 0}, {0.16, 0.036, 0.16}))};
+  EXPECT_FALSE(mentions(lintScene(scene), "bubble_source 0", "outside solids"));
+  scene.solids[0].shape.upper.y() = 0.05;
+  EXPECT_TRUE(mentions(lintScene(scene), "bubble_source 0", "of its bubbles will find no place"));
+  const DomainBox domain(scene);
+  const double share = roomShare(scene.bubbleSources[0].shape, domain, solidDistance(scene));
+  EXPECT_NEAR(share, 0.25, 0.03);  // three deviations of 2000 points
 }
 
 TEST(SceneLint, EdgesThatRoundingChangesAreNamed) {
