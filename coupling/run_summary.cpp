@@ -185,7 +185,7 @@ bool isUnderWay(const std::string& path) {
   const auto says = [&](const std::string& name, const std::string& value) {
     return text.find(quoted(name) + ": " + quoted(value)) != std::string::npos;
   };
-  return says("status", "running") && says("spume", SPUME_VERSION) && says("simd", SPUME_SIMD_PATH);
+  return says("status", "running") && says("spume", SPUME_VERSION) && says("simd", kSimdPath);
 }
 
 void writeRunJson(const std::string& path, const Scene& scene, const RunSummary& summary) {
