@@ -23,7 +23,7 @@ class DirectSolve {
   /// Adds to `x` the solution of A e = b with the last factor.
   void improve(const Vectors3& b, Vectors3& x);
 
-  /// Most entries of a factor: 4 GB of doubles. A thick foam reaches it at about 40000 bubbles.
+  /// Most entries of a factor: 4 GB of doubles. That of 100000 bubbles of a thick, dense foam still fits.
   static constexpr double kLargestFactor = 5e8;
 
  private:

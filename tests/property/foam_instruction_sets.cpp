@@ -1,6 +1,8 @@
 // Programs for any x86-64 and for the wider registers of this machine give the same to round-off.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
