@@ -122,6 +122,7 @@ void OverlapPairs::joinRows() {
     rowStart_[s + 1] += rowStart_[s], upperStart_[s] += rowStart_[s];
   }
   candidate_.resize(slots() + kSearched), pair_.resize(slots() + kLanes);
+  std::fill_n(pair_.data() + slots(), kLanes, 0);  // whole registers read on behind the last row
   tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
     const std::int32_t first = static_cast<std::int32_t>(piece) * kClusterGrain * BallTree::kFan;
     const std::int32_t last = std::min(first + kClusterGrain * BallTree::kFan, size());
