@@ -7,6 +7,13 @@
 namespace spume::foam::test {
 namespace {
 
+/// Cells hold their gas to `tolerance`, with room to grow.
+FoamParams heldTo(double tolerance) {
+  FoamParams params;
+  params.volumeMode = VolumeMode::newton, params.volumeTolerance = tolerance, params.radiusLimit = 10;
+  return params;
+}
+
 /// The same pairs and films, areas and volumes to round-off of a sum over a dozen films.
 void expectSameGeometry(const FoamTopology& a, const FoamTopology& b) {
   constexpr double kRoundOff = 1e-12;
@@ -26,10 +33,7 @@ void expectSameGeometry(const FoamTopology& a, const FoamTopology& b) {
 
 TEST(VolumePatch, CorrectsAFewCellsAndLeavesTheRest) {
   BubbleStore bubbles = denseFoam();
-  FoamParams params;
-  params.volumeMode = VolumeMode::newton;
-  params.volumeTolerance = 1e-6;
-  params.radiusLimit = 10;
+  const FoamParams params = heldTo(1e-6);
   const std::vector<double> before = bubbles.radius;
   const std::size_t odd = bubbles.size() / 2;
   bubbles.radius[odd] *= 1.1;
@@ -55,10 +59,7 @@ TEST(VolumePatch, CorrectsAFewCellsAndLeavesTheRest) {
 /// Neighbours that hold their gas well enough beside the corrected cell stay as they are, to the bit.
 TEST(VolumePatch, LeavesNeighboursThatStayWithinTheTolerance) {
   BubbleStore bubbles = denseFoam();
-  FoamParams params;
-  params.volumeMode = VolumeMode::newton;
-  params.volumeTolerance = 5e-3;
-  params.radiusLimit = 10;
+  const FoamParams params = heldTo(5e-3);
   const auto odd = static_cast<std::int32_t>(bubbles.size() / 2);
   bubbles.gas[odd] *= 1.02;
   FoamTopology topology;
