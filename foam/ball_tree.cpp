@@ -43,6 +43,16 @@ int usualOctave(const std::vector<double>& radius) {
   return static_cast<int>(sum / static_cast<std::int64_t>(radius.size()));
 }
 
+/// Whether balls that follow each other are near each other: those of a foam in space order are some two
+/// mean diameters apart, those in no order as far as the foam is wide.
+bool isInSpaceOrder(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius) {
+  constexpr double kNearRadii = 8;
+  const auto excess = [&](std::size_t i) {
+    return i == 0 ? 0 : (position[i] - position[i - 1]).norm() - kNearRadii * radius[i];
+  };
+  return reduceIndices(radius.size(), 0.0, excess, std::plus<>()) <= 0;
+}
+
 std::size_t wholeClusters(std::size_t count) {
   return (count + BallTree::kFan - 1) / BallTree::kFan * BallTree::kFan;
 }
@@ -92,16 +102,17 @@ void BallTree::Boxes::reserve(std::size_t boxes) {
 void BallTree::build(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius,
                      double reach) {
   const std::size_t n = radius.size(), padded = wholeClusters(n);
-  order_.resize(n), index_.resize(padded);
+  order_.resize(n);
   height_ = 0, reach_ = reach;
   if (n == 0) return;
-  sort(position, radius);
+  isInputOrder_ = isInSpaceOrder(position, radius);
+  if (!isInputOrder_) sort(position, radius);
   for (auto* column : {&x_, &y_, &z_, &far_}) column->resize(padded);
   forEachIndex(n, [&](std::size_t s) {
-    const std::int32_t i = order_[s] = index_[s] = keys_[s].index;
+    const std::int32_t i = order_[s] = isInputOrder_ ? static_cast<std::int32_t>(s) : keys_[s].index;
     x_[s] = position[i].x(), y_[s] = position[i].y(), z_[s] = position[i].z(), far_[s] = reach * radius[i];
   });
-  for (std::size_t s = n; s < padded; ++s) x_[s] = y_[s] = z_[s] = kNowhere, far_[s] = 0, index_[s] = 0;
+  for (std::size_t s = n; s < padded; ++s) x_[s] = y_[s] = z_[s] = kNowhere, far_[s] = 0;
   boxClusters();
 }
 
@@ -157,7 +168,8 @@ void BallTree::boxLevel(const Boxes& finer, Boxes& coarser) const {
   }
 }
 
-/// Finds the clusters that those of a group of eight may be near to, from the largest boxes down.
+/// Finds the clusters that those of a group of eight may be near to, from the largest boxes down and
+/// ascending.
 void BallTree::openGroup(std::int32_t group, Query& query) const {
   const Boxes& clusterBoxes = levels_[0];
   const auto first = static_cast<std::size_t>(group) * kFan;
@@ -175,9 +187,13 @@ void BallTree::openGroup(std::int32_t group, Query& query) const {
       addMeeting(boxes, begin, end, box, query.around);
       continue;
     }
-    for (std::size_t k = begin; k < end; k += kLanes)
-      for (std::uint32_t bits = meets(boxes, k, box); bits != 0; bits &= bits - 1)
-        stack.push_back(static_cast<std::int32_t>(k) + std::countr_zero(bits)), stack.push_back(level - 1);
+    std::uint32_t met = 0;
+    for (std::size_t k = begin; k < end; k += kLanes) met |= meets(boxes, k, box) << (k - begin);
+    while (met != 0) {  // the last first: it comes out last
+      const int last = std::bit_width(met) - 1;
+      stack.push_back(static_cast<std::int32_t>(begin) + last), stack.push_back(level - 1);
+      met ^= 1u << last;
+    }
   }
 }
 
@@ -209,9 +225,9 @@ std::size_t BallTree::findClosest(std::int32_t s, Query& query) const {
 
 void BallTree::findNear(std::int32_t s, Query& query) const {
   const std::size_t closest = findClosest(s, query);
-  if (query.near.size() < (closest + 1) * kFan) query.near.resize(2 * (closest + 1) * kFan);
+  std::size_t found = query.found;
+  if (query.near.size() < found + (closest + 1) * kFan) query.near.resize(2 * (found + (closest + 1) * kFan));
   const double x = x_[s], y = y_[s], z = z_[s], far = far_[s], out = (2 / reach_ - 1) * far;
-  std::size_t found = 0;
   query.holders.clear();
   for (std::size_t c = 0; c < closest; ++c)
     for (std::size_t k = 0; k < kFan; k += kLanes) {
@@ -224,7 +240,7 @@ void BallTree::findNear(std::int32_t s, Query& query) const {
       for (std::uint32_t left = bits & bitsOf((inner > 0) & (distance2 <= inner * inner)); left != 0;
            left &= left - 1)
         query.holders.push_back(static_cast<std::int32_t>(t) + std::countr_zero(left));
-      found += storeSelected(bits, &index_[t], &query.near[found]);
+      found += storePlaces(bits, static_cast<std::int32_t>(t), &query.near[found]);
     }
   query.found = found;
 }

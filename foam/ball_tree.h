@@ -10,8 +10,9 @@
 
 namespace spume::foam {
 
-/// Balls in a tree of boxes, to find those near a ball (performance, "Foam geometry"): sorted along Hilbert's
-/// curve, boxes around each eight in a row, each eight boxes, and so on. Small balls that share a box with a
+/// Balls in a tree of boxes, to find those near a ball (performance, "Foam geometry"): in space order, boxes
+/// around each eight in a row, each eight boxes, and so on. The order is the input's where that is one in
+/// space, as a step has it, else along Hilbert's curve. Small balls that share a box with a
 /// large one are looked at wherever it reaches, which costs no more than the large one alone: eight are
 /// tested at once. A class for each octave of sizes would tell them apart, but the boxes of sparse classes
 /// are wide and meet each other everywhere. Memory is kept from build to build.
@@ -39,7 +40,7 @@ class BallTree {
     Boxes around, open;                 ///< clusters near that group, and near the open cluster
     std::vector<std::int32_t> closest;  ///< of those, the ones that a ball may be near to
     std::size_t found = 0;
-    std::vector<std::int32_t> near;     ///< what has been found, in its first `found` places
+    std::vector<std::int32_t> near;     ///< what has been found, in its first `found` entries
     std::vector<std::int32_t> holders;  ///< those of the balls near in which that ball may come to lie
   };
 
@@ -50,14 +51,16 @@ class BallTree {
   std::int32_t size() const { return static_cast<std::int32_t>(order_.size()); }
   /// Input index of each place in the tree.
   const std::vector<std::int32_t>& order() const { return order_; }
+  /// Whether each ball's place is its input index.
+  bool isInputOrder() const { return isInputOrder_; }
   std::int32_t clusters() const { return (size() + kFan - 1) / kFan; }
 
   /// Finds the clusters that balls of `cluster` may be near to; quick if one of the same eight was last. A
   /// new tree needs a new Query.
   void openCluster(std::int32_t cluster, Query& query) const;
-  /// Lists in `query.near` the input indices of all balls near that at place `s`, itself left out, in the
-  /// order of the tree; its cluster must be open. Of two balls that are near each finds the other, to the
-  /// last bit. `query.holders`: places of those within r_j - r_i + (reach - 1) (r_i + r_j).
+  /// Adds to `query.near` the places of all balls near that at place `s`, itself left out, ascending; its
+  /// cluster must be open. Of two balls that are near each finds the other, to the last bit. `query.holders`:
+  /// places of those within r_j - r_i + (reach - 1) (r_i + r_j).
   void findNear(std::int32_t s, Query& query) const;
 
  private:
@@ -69,8 +72,8 @@ class BallTree {
 
   double reach_ = 1;
   RawBuffer<SortKey> keys_, spareKeys_;
-  std::vector<std::int32_t> order_;    ///< padded nowhere: as long as there are balls
-  RawBuffer<std::int32_t> index_;      ///< order_, padded to whole clusters
+  std::vector<std::int32_t> order_;
+  bool isInputOrder_ = true;
   RawBuffer<double> x_, y_, z_, far_;  ///< centres and `reach` r [m], padded to whole clusters
   std::vector<Boxes> levels_;          ///< from the clusters' boxes up
   std::int32_t height_ = 0;            ///< levels in use

@@ -101,6 +101,19 @@ inline std::size_t storeSelected(std::uint32_t bits, const std::int32_t* values,
   return static_cast<std::size_t>(std::popcount(bits));
 }
 
+/// Writes the places of those of kLanes values whose bit is set, of which the first is at place `first`, as
+/// storeSelected does.
+inline std::size_t storePlaces(std::uint32_t bits, std::int32_t first, std::int32_t* to) {
+#if defined(__AVX512VL__)
+  const __m256i all = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), all));
+#else
+  for (std::uint32_t left = bits; left != 0; left &= left - 1) *to++ = first + std::countr_zero(left);
+#endif
+  return static_cast<std::size_t>(std::popcount(bits));
+}
+
 inline double sumOf(const Lanes& x) {
   double sum = 0;
   for (std::size_t k = 0; k < kLanes; ++k) sum += x[k];

@@ -20,8 +20,9 @@ namespace spume::foam {
 /// it pays where it is used three times. So it is given that room only where bubbles have moved so little
 /// twice in a row; else, and in the beginning, it holds for these balls alone.
 ///
-/// Bubbles are numbered here by *rank*, along a curve through space: neighbours are near in memory. Rows list
-/// candidates by input index, so that what is summed along a row does not depend on when the list was built.
+/// Bubbles are numbered here by *rank*, in the space order of the tree: neighbours are near in memory. Rows
+/// list candidates by input index, so that what is summed along a row does not depend on when the list was
+/// built. Where the input is in space order ranks are input indices.
 class OverlapPairs {
  public:
   /// Free motion before a rebuild, in radii, of a list with room: larger means fewer rebuilds but longer rows
@@ -62,8 +63,7 @@ class OverlapPairs {
  private:
   /// A thread's memory, and the rows it has found.
   struct Finder {
-    BallTree::Query query;
-    std::vector<std::int32_t> sorted, candidates;
+    BallTree::Query query;  ///< with all rows, ranks ascending
     std::vector<Nesting> nestings;
   };
   /// Where the rows of one parallel task are.
@@ -78,7 +78,10 @@ class OverlapPairs {
   void findRows();
   void findRow(std::int32_t s, Finder& finder);
   void joinRows();
+  std::int32_t higherStart(std::int32_t s) const;
   void numberPairs();
+  void numberBlock(std::int32_t begin, std::int32_t end);
+  void sortRows();
 
   double skin_ = kNoSkin;     ///< of the list
   int uses_ = 0;              ///< of the list, so far

@@ -34,9 +34,12 @@ void expectAllFound(const Balls& balls, BallTree& tree, bool backwards) {
     tree.openCluster(cluster, query);
     const std::int32_t end = std::min((cluster + 1) * BallTree::kFan, tree.size());
     for (std::int32_t s = cluster * BallTree::kFan; s < end; ++s) {
+      query.found = 0;
       tree.findNear(s, query);
       std::vector<std::int32_t> found(query.near.begin(),
                                       query.near.begin() + static_cast<std::ptrdiff_t>(query.found));
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      for (std::int32_t& place : found) place = tree.order()[place];
       std::sort(found.begin(), found.end());
       EXPECT_EQ(found, nearByForce(balls, tree.order()[s])) << balls.size() << " balls, place " << s;
     }
