@@ -14,12 +14,13 @@ namespace spume::foam {
 
 namespace {
 
-/// Boxes are wider by that, relatively: some ulp, so that no ball is missed from one side alone.
+/// Boxes are wider by that, relatively: some ulp, so that no ball is missed.
 constexpr double kRoundOff = 4e-15;
 constexpr double kTieSpare = 1e-8;  ///< of radii, which ties may change by less
 constexpr double kNowhere = 1e200;  ///< its square is infinite: nothing reaches it
 constexpr auto kInfinity = std::numeric_limits<double>::infinity();
-static_assert(BallTree::kFan % kLanes == 0);
+constexpr int kFanBits = 3;
+static_assert(BallTree::kFan == 1 << kFanBits && BallTree::kFan % kLanes == 0);
 
 struct Bounds {
   Eigen::Vector3d low, high;
@@ -168,8 +169,8 @@ void BallTree::boxLevel(const Boxes& finer, Boxes& coarser) const {
   }
 }
 
-/// Finds the clusters that those of a group of eight may be near to, from the largest boxes down and
-/// ascending.
+/// Finds the clusters from a group of eight on that those of the group may be near to, from the largest boxes
+/// down and ascending: so those of the group itself come first.
 void BallTree::openGroup(std::int32_t group, Query& query) const {
   const Boxes& clusterBoxes = levels_[0];
   const auto first = static_cast<std::size_t>(group) * kFan;
@@ -189,10 +190,11 @@ void BallTree::openGroup(std::int32_t group, Query& query) const {
     }
     std::uint32_t met = 0;
     for (std::size_t k = begin; k < end; k += kLanes) met |= meets(boxes, k, box) << (k - begin);
-    while (met != 0) {  // the last first: it comes out last
-      const int last = std::bit_width(met) - 1;
-      stack.push_back(static_cast<std::int32_t>(begin) + last), stack.push_back(level - 1);
-      met ^= 1u << last;
+    const auto own = static_cast<std::int32_t>(first >> kFanBits * level);  // box with the group
+    for (; met != 0; met ^= std::bit_floor(met)) {                          // what is pushed last comes next
+      const std::int32_t last = static_cast<std::int32_t>(begin) + std::bit_width(met) - 1;
+      if (last < own) break;
+      stack.push_back(last), stack.push_back(level - 1);
     }
   }
 }
@@ -201,7 +203,7 @@ void BallTree::openCluster(std::int32_t cluster, Query& query) const {
   if (cluster / kFan != query.group) openGroup(cluster / kFan, query);
   query.open.count = 0;
   const auto k = static_cast<std::size_t>(cluster);
-  addMeeting(query.around, 0, query.around.count, boxAround(levels_[0], k, k + 1), query.open);
+  addMeeting(query.around, k % kFan, query.around.count, boxAround(levels_[0], k, k + 1), query.open);
 }
 
 /// Lists the open clusters whose box is no farther from a ball's centre than it reaches: a third of them.
@@ -223,26 +225,39 @@ std::size_t BallTree::findClosest(std::int32_t s, Query& query) const {
   return closest;
 }
 
-void BallTree::findNear(std::int32_t s, Query& query) const {
+void BallTree::findLater(std::int32_t s, Query& query) const {
   const std::size_t closest = findClosest(s, query);
   std::size_t found = query.found;
   if (query.near.size() < found + (closest + 1) * kFan) query.near.resize(2 * (found + (closest + 1) * kFan));
-  const double x = x_[s], y = y_[s], z = z_[s], far = far_[s], out = (2 / reach_ - 1) * far;
-  query.holders.clear();
+  const double x = x_[s], y = y_[s], z = z_[s], far = far_[s], inward = 2 / reach_ - 1;
+  const Lanes own = Lanes{} + far;
+  const auto next = static_cast<std::size_t>(s) + 1;
   for (std::size_t c = 0; c < closest; ++c)
     for (std::size_t k = 0; k < kFan; k += kLanes) {
       const std::size_t t = static_cast<std::size_t>(query.closest[c]) * kFan + k;
       const Lanes dx = loadLanes(&x_[t]) - x, dy = loadLanes(&y_[t]) - y, dz = loadLanes(&z_[t]) - z,
-                  other = loadLanes(&far_[t]), near = other + far, inner = other * (1 + kTieSpare) - out,
+                  other = loadLanes(&far_[t]), near = other + far, large = other > own ? other : own,
+                  small = other > own ? own : other, inner = large * (1 + kTieSpare) - small * inward,
                   distance2 = dx * dx + dy * dy + dz * dz;
       std::uint32_t bits = bitsOf(distance2 < near * near);
-      if (const std::size_t own = static_cast<std::size_t>(s) - t; own < kLanes) bits &= ~(1u << own);
+      if (t < next) bits &= ~lanesBelow(next - t);
       for (std::uint32_t left = bits & bitsOf((inner > 0) & (distance2 <= inner * inner)); left != 0;
            left &= left - 1)
-        query.holders.push_back(static_cast<std::int32_t>(t) + std::countr_zero(left));
+        noteNesting(s, static_cast<std::int32_t>(t) + std::countr_zero(left), query);
       found += storePlaces(bits, static_cast<std::int32_t>(t), &query.near[found]);
     }
   query.found = found;
+}
+
+/// Of two balls of which the smaller one may come to lie in the larger one, and the other way round if they
+/// are all but the same.
+void BallTree::noteNesting(std::int32_t s, std::int32_t t, Query& query) const {
+  const double dx = x_[t] - x_[s], dy = y_[t] - y_[s], dz = z_[t] - z_[s],
+               distance2 = dx * dx + dy * dy + dz * dz;
+  for (const auto& [inner, outer] : {Nesting{s, t}, Nesting{t, s}}) {
+    const double spare = far_[outer] * (1 + kTieSpare) - far_[inner] * (2 / reach_ - 1);
+    if (spare > 0 && distance2 <= spare * spare) query.nestings.push_back({inner, outer});
+  }
 }
 
 }  // namespace spume::foam

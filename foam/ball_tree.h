@@ -33,6 +33,11 @@ class BallTree {
     void reserve(std::size_t boxes);
   };
 
+  /// The ball at one place that may come to lie within that at another.
+  struct Nesting {
+    std::int32_t inner, outer;
+  };
+
   /// A thread's memory for queries.
   struct Query {
     std::vector<std::int32_t> stack;
@@ -40,8 +45,8 @@ class BallTree {
     Boxes around, open;                 ///< clusters near that group, and near the open cluster
     std::vector<std::int32_t> closest;  ///< of those, the ones that a ball may be near to
     std::size_t found = 0;
-    std::vector<std::int32_t> near;     ///< what has been found, in its first `found` entries
-    std::vector<std::int32_t> holders;  ///< those of the balls near in which that ball may come to lie
+    std::vector<std::int32_t> near;  ///< what has been found, in its first `found` entries
+    std::vector<Nesting> nestings;   ///< among these pairs
   };
 
   /// Sorts the balls at `position` [m] with `radius` [m, > 0]. Near is a distance below `reach` (r_i + r_j).
@@ -55,13 +60,13 @@ class BallTree {
   bool isInputOrder() const { return isInputOrder_; }
   std::int32_t clusters() const { return (size() + kFan - 1) / kFan; }
 
-  /// Finds the clusters that balls of `cluster` may be near to; quick if one of the same eight was last. A
-  /// new tree needs a new Query.
+  /// Finds the clusters from this one on that balls of `cluster` may be near to; quick if one of the same
+  /// eight was last. A new tree needs a new Query.
   void openCluster(std::int32_t cluster, Query& query) const;
-  /// Adds to `query.near` the places of all balls near that at place `s`, itself left out, ascending; its
-  /// cluster must be open. Of two balls that are near each finds the other, to the last bit. `query.holders`:
-  /// places of those within r_j - r_i + (reach - 1) (r_i + r_j).
-  void findNear(std::int32_t s, Query& query) const;
+  /// Adds to `query.near` the places after `s` of all balls near that at place `s`, ascending; its cluster
+  /// must be open. Adds to `query.nestings` those of which one is within r_j - r_i + (reach - 1) (r_i + r_j)
+  /// of the other.
+  void findLater(std::int32_t s, Query& query) const;
 
  private:
   void sort(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
@@ -69,6 +74,7 @@ class BallTree {
   void boxLevel(const Boxes& finer, Boxes& coarser) const;
   void openGroup(std::int32_t group, Query& query) const;
   std::size_t findClosest(std::int32_t s, Query& query) const;
+  void noteNesting(std::int32_t s, std::int32_t t, Query& query) const;
 
   double reach_ = 1;
   RawBuffer<SortKey> keys_, spareKeys_;

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 
@@ -13,8 +12,17 @@
 namespace spume::foam {
 namespace {
 
-constexpr std::int32_t kClusterGrain = 16;   ///< clusters per parallel task
-constexpr std::int32_t kNumberGrain = 4096;  ///< bubbles per task: most pairs are of two of the same
+constexpr std::int32_t kClusterGrain = 16;                            ///< clusters per parallel task
+constexpr std::int32_t kPieceBalls = kClusterGrain * BallTree::kFan;  ///< and balls
+constexpr std::int32_t kParts = 4, kLeastPart = 2048;                 ///< of the ranks, each filled by a task
+
+/// Calls body(begin, end) for parts of the ranks, in parallel.
+template <typename Body>
+void forEachPart(std::int32_t count, const Body& body) {
+  const std::int32_t part = std::max((count + kParts - 1) / kParts, kLeastPart);
+  tbb::parallel_for(std::int32_t{0}, (count + part - 1) / part,
+                    [&](std::int32_t k) { body(k * part, std::min((k + 1) * part, count)); });
+}
 
 }  // namespace
 
@@ -29,9 +37,9 @@ bool OverlapPairs::update(const std::vector<Eigen::Vector3d>& position, const st
   tree_.build(position, radius, 1 + skin_);
   rank_.resize(radius.size());
   forEachIndex(radius.size(), [&](std::size_t s) { rank_[order()[s]] = static_cast<std::int32_t>(s); });
-  findRows();
-  joinRows();
-  numberPairs();
+  findPairs();
+  startRows();
+  fillRows();
   if (!tree_.isInputOrder()) sortRows();
   return true;
 }
@@ -65,87 +73,89 @@ bool OverlapPairs::holdsWith(double skin, const std::vector<Eigen::Vector3d>& po
                       static_cast<double>(n));
 }
 
-/// Each bubble finds its own row: each pair is tested twice, but no thread waits for another.
-void OverlapPairs::findRows() {
-  rowStart_.resize(static_cast<std::size_t>(size()) + 1), firstPair_.resize(rowStart_.size());
-  upperStart_.resize(static_cast<std::size_t>(size()));
+/// Each bubble finds those of higher rank, so each pair is tested once and no thread waits for another.
+void OverlapPairs::findPairs() {
+  firstPair_.resize(static_cast<std::size_t>(size()) + 1);
   pieces_.resize(static_cast<std::size_t>(tree_.clusters() + kClusterGrain - 1) / kClusterGrain);
-  for (Finder& finder : finders_) finder.query.found = 0, finder.query.group = -1, finder.nestings.clear();
+  for (BallTree::Query& query : queries_) query.found = 0, query.group = -1, query.nestings.clear();
   tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
-    Finder& finder = finders_.local();
-    pieces_[piece] = {&finder, finder.query.found};
+    BallTree::Query& query = queries_.local();
+    pieces_[piece] = {&query, query.found};
     const auto first = static_cast<std::int32_t>(piece) * kClusterGrain;
     for (std::int32_t c = first; c < std::min(first + kClusterGrain, tree_.clusters()); ++c) {
-      tree_.openCluster(c, finder.query);
+      tree_.openCluster(c, query);
       for (std::int32_t s = c * BallTree::kFan; s < std::min((c + 1) * BallTree::kFan, size()); ++s)
-        findRow(s, finder);
+        findHigher(s, query);
     }
-  });
-}
-
-void OverlapPairs::findRow(std::int32_t s, Finder& finder) {
-  BallTree::Query& query = finder.query;
-  const std::size_t begin = query.found;
-  tree_.findNear(s, query);
-  const auto row = query.near.begin() + static_cast<std::ptrdiff_t>(begin);
-  if (const std::int32_t known = size() - static_cast<std::int32_t>(strangers_); order()[s] >= known) {
-    const auto isStranger = [&](std::int32_t t) { return order()[t] >= known; };
-    const auto end = query.near.begin() + static_cast<std::ptrdiff_t>(query.found);
-    query.found = static_cast<std::size_t>(std::remove_if(row, end, isStranger) - query.near.begin());
-  }
-  const auto count = static_cast<std::int32_t>(query.found - begin);
-  rowStart_[s + 1] = count, firstPair_[s + 1] = 0;
-  for (std::int32_t k = 0; k < count; ++k) firstPair_[s + 1] += row[k] > s;
-  for (const std::int32_t holder : query.holders) finder.nestings.push_back({s, holder});
-}
-
-/// Puts the rows, found by several threads, one after the other.
-void OverlapPairs::joinRows() {
-  rowStart_[0] = firstPair_[0] = 0;
-  for (std::int32_t s = 0; s < size(); ++s)
-    rowStart_[s + 1] += rowStart_[s], firstPair_[s + 1] += firstPair_[s];
-  candidate_.resize(slots() + kLanes), pair_.resize(slots() + kLanes);
-  std::fill_n(pair_.data() + slots(), kLanes, 0);  // whole registers read on behind the last row
-  tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
-    const std::int32_t first = static_cast<std::int32_t>(piece) * kClusterGrain * BallTree::kFan;
-    const std::int32_t last = std::min(first + kClusterGrain * BallTree::kFan, size());
-    const auto from =
-        pieces_[piece].finder->query.near.begin() + static_cast<std::ptrdiff_t>(pieces_[piece].begin);
-    std::copy_n(from, rowStart_[last] - rowStart_[first], candidate_.data() + rowStart_[first]);
+    for (std::size_t k = pieces_[piece].begin; k < query.found; ++k)
+      pieces_[piece].farthest = std::max(pieces_[piece].farthest, query.near[k]);
   });
   nestings_.clear();
-  for (const Finder& finder : finders_)
-    nestings_.insert(nestings_.end(), finder.nestings.begin(), finder.nestings.end());
+  for (const BallTree::Query& query : queries_)
+    nestings_.insert(nestings_.end(), query.nestings.begin(), query.nestings.end());
 }
 
-/// The slot from which on the candidates of rank s, ascending, have higher ranks.
-std::int32_t OverlapPairs::higherStart(std::int32_t s) const {
-  return rowStart_[s + 1] - (firstPair_[s + 1] - firstPair_[s]);
-}
-
-/// Numbers the pairs along the rows of their bubbles of lower rank.
-void OverlapPairs::numberPairs() {
-  tbb::parallel_for(std::int32_t{0}, (size() + kNumberGrain - 1) / kNumberGrain, [&](std::int32_t block) {
-    numberBlock(block * kNumberGrain, std::min((block + 1) * kNumberGrain, size()));
-  });
-}
-
-/// Numbers those in the rows `begin` .. `end` - 1. A bubble of these rows meets its candidates of higher rank
-/// in the order of its own row, so it is known which is next; in a row before them it has to be looked for.
-void OverlapPairs::numberBlock(std::int32_t begin, std::int32_t end) {
-  std::array<std::int32_t, kNumberGrain> next;
-  for (std::int32_t s = begin; s < end; ++s) {
-    next[s - begin] = firstPair_[s];
-    std::int32_t slot = rowStart_[s];
-    const std::int32_t higher = upperStart_[s] = higherStart(s);
-    for (; slot < higher && candidate_[slot] < begin; ++slot) {
-      const std::int32_t t = candidate_[slot], first = higherStart(t);
-      pair_[slot] = firstPair_[t];
-      for (std::int32_t k = first; k < rowStart_[t + 1]; ++k) pair_[slot] += candidate_[k] < s;
-    }
-    for (; slot < higher; ++slot) pair_[slot] = next[candidate_[slot] - begin]++;
-    for (std::int32_t number = firstPair_[s]; slot < rowStart_[s + 1]; ++slot) pair_[slot] = number++;
+void OverlapPairs::findHigher(std::int32_t s, BallTree::Query& query) {
+  const std::size_t begin = query.found;
+  tree_.findLater(s, query);
+  if (const std::int32_t known = size() - static_cast<std::int32_t>(strangers_); order()[s] >= known) {
+    const auto place = [&](std::size_t k) { return query.near.begin() + static_cast<std::ptrdiff_t>(k); };
+    const auto isStranger = [&](std::int32_t t) { return order()[t] >= known; };
+    const auto end = std::remove_if(place(begin), place(query.found), isStranger);
+    query.found = static_cast<std::size_t>(end - query.near.begin());
   }
+  firstPair_[s + 1] = static_cast<std::int32_t>(query.found - begin);
+}
+
+/// Calls visit(s, t, pair) for all pairs of ranks s < t with t in `begin` .. `end` - 1, by ascending s.
+template <typename Visit>
+void OverlapPairs::forEachPairWith(std::int32_t begin, std::int32_t end, const Visit& visit) const {
+  for (std::int32_t first = 0; first < end; first += kPieceBalls) {
+    const Piece& piece = pieces_[first / kPieceBalls];
+    if (piece.farthest < begin) continue;
+    const std::int32_t* higher = piece.query->near.data() + piece.begin;
+    for (std::int32_t s = first; s < std::min(first + kPieceBalls, size()); ++s) {
+      std::int32_t pair = firstPair_[s], last = firstPair_[s + 1];
+      const std::int32_t *t = higher, *rowEnd = higher += last - pair;
+      if (pair == last || rowEnd[-1] < begin) continue;
+      for (; *t < begin; ++t) ++pair;
+      for (; t != rowEnd && *t < end; ++t) visit(s, *t, pair++);
+    }
+  }
+}
+
+/// Numbers the pairs, and finds where the rows begin.
+void OverlapPairs::startRows() {
+  firstPair_[0] = 0;
+  for (std::int32_t s = 0; s < size(); ++s) firstPair_[s + 1] += firstPair_[s];
+  rowStart_.resize(firstPair_.size()), upperStart_.resize(static_cast<std::size_t>(size()));
+  forEachPart(size(), [&](std::int32_t begin, std::int32_t end) {
+    std::fill(upperStart_.begin() + begin, upperStart_.begin() + end, 0);
+    forEachPairWith(begin, end, [&](std::int32_t, std::int32_t t, std::int32_t) { ++upperStart_[t]; });
+  });
+  rowStart_[0] = 0;
+  for (std::int32_t s = 0; s < size(); ++s)
+    rowStart_[s + 1] = rowStart_[s] + upperStart_[s] + firstPair_[s + 1] - firstPair_[s];
+  candidate_.resize(slots() + kLanes), pair_.resize(slots() + kLanes);
+  std::fill_n(pair_.data() + slots(), kLanes, 0);  // whole registers read on behind the last row
+}
+
+/// Lists the pairs in the rows of both, by ascending rank.
+void OverlapPairs::fillRows() {
+  forEachPart(size(), [&](std::int32_t begin, std::int32_t end) {
+    std::copy(rowStart_.begin() + begin, rowStart_.begin() + end, upperStart_.begin() + begin);
+    forEachPairWith(begin, end, [&](std::int32_t s, std::int32_t t, std::int32_t pair) {
+      const std::int32_t slot = upperStart_[t]++;
+      candidate_[slot] = s, pair_[slot] = pair;
+    });
+  });
+  tbb::parallel_for(std::size_t{0}, pieces_.size(), [&](std::size_t piece) {
+    const std::int32_t* higher = pieces_[piece].query->near.data() + pieces_[piece].begin;
+    const auto first = static_cast<std::int32_t>(piece) * kPieceBalls;
+    for (std::int32_t s = first; s < std::min(first + kPieceBalls, size()); ++s)
+      for (std::int32_t slot = upperStart_[s], pair = firstPair_[s]; slot < rowStart_[s + 1]; ++slot)
+        candidate_[slot] = *higher++, pair_[slot] = pair++;
+  });
 }
 
 /// Sorts the rows by input index.

@@ -32,9 +32,7 @@ class OverlapPairs {
   static constexpr double kNoSkin = 1e-6;
 
   /// The ball of one rank that may come to lie within that of another while the list holds.
-  struct Nesting {
-    std::int32_t inner, outer;
-  };
+  using Nesting = BallTree::Nesting;
 
   /// Brings the list up to date for `position` [m] and `radius` [m, > 0], of equal length and finite. The
   /// last `strangers` balls know those before them alone, not each other. Returns true if it had to be
@@ -61,26 +59,22 @@ class OverlapPairs {
   const std::vector<Nesting>& nestings() const { return nestings_; }
 
  private:
-  /// A thread's memory, and the rows it has found.
-  struct Finder {
-    BallTree::Query query;  ///< with all rows, ranks ascending
-    std::vector<Nesting> nestings;
-  };
-  /// Where the rows of one parallel task are.
+  /// The pairs that one parallel task has found, along the rows of their lower ranks, by their higher ones.
   struct Piece {
-    const Finder* finder = nullptr;
-    std::size_t begin = 0;
+    const BallTree::Query* query = nullptr;
+    std::size_t begin = 0;      ///< in what that query has found
+    std::int32_t farthest = 0;  ///< the highest rank
   };
 
   void chooseSkin(const std::vector<Eigen::Vector3d>& position, const std::vector<double>& radius);
   bool holdsWith(double skin, const std::vector<Eigen::Vector3d>& position,
                  const std::vector<double>& radius) const;
-  void findRows();
-  void findRow(std::int32_t s, Finder& finder);
-  void joinRows();
-  std::int32_t higherStart(std::int32_t s) const;
-  void numberPairs();
-  void numberBlock(std::int32_t begin, std::int32_t end);
+  void findPairs();
+  void findHigher(std::int32_t s, BallTree::Query& query);
+  template <typename Visit>
+  void forEachPairWith(std::int32_t begin, std::int32_t end, const Visit& visit) const;
+  void startRows();
+  void fillRows();
   void sortRows();
 
   double skin_ = kNoSkin;     ///< of the list
@@ -94,7 +88,7 @@ class OverlapPairs {
   RawBuffer<std::int32_t> candidate_, pair_;
   std::vector<Nesting> nestings_;
   std::vector<std::int32_t> firstPair_;  ///< of each rank with higher ones
-  tbb::enumerable_thread_specific<Finder> finders_;
+  tbb::enumerable_thread_specific<BallTree::Query> queries_;
   std::vector<Piece> pieces_;
 };
 
