@@ -61,18 +61,6 @@ inline std::uint32_t bitsOf(const LaneMask& mask) {
 #endif
 }
 
-/// Bits of those of kLanes values that equal one.
-inline std::uint32_t equalBits(const std::int32_t* values, std::int32_t value) {
-#if defined(__AVX512VL__)
-  return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)),
-                                 _mm256_set1_epi32(value));
-#else
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < kLanes; ++k) bits |= static_cast<std::uint32_t>(values[k] == value) << k;
-  return bits;
-#endif
-}
-
 /// The bits of the first `count` lanes.
 inline std::uint32_t lanesBelow(std::size_t count) {
   return count < kLanes ? (1u << count) - 1 : (1u << kLanes) - 1;

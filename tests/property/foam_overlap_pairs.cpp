@@ -3,6 +3,7 @@
 #include <set>
 
 #include "foam/overlap_pairs.h"
+#include "foam/space_order.h"
 #include "tests/support/foam_balls.h"
 
 namespace spume::foam::test {
@@ -23,7 +24,7 @@ PairSet allOverlaps(const Balls& balls) {
   return pairs;
 }
 
-/// The overlaps among the candidates; checks mirrors and the order of rows on the way.
+/// The overlaps among the candidates; checks the order of rows on the way.
 PairSet listedOverlaps(const Balls& balls, const OverlapPairs& list) {
   PairSet pairs;
   for (int s = 0; s < list.size(); ++s)
@@ -31,6 +32,7 @@ PairSet listedOverlaps(const Balls& balls, const OverlapPairs& list) {
       const int t = list.candidate()[slot], i = list.order()[s], j = list.order()[t];
       EXPECT_GT(j, last);
       last = j;
+      EXPECT_EQ(j > i, slot >= list.upperStart()[s]);
       if (overlaps(balls, i, j)) pairs.insert(std::minmax(i, j));
     }
   return pairs;
@@ -177,6 +179,52 @@ TEST(OverlapPairs, StrangersDoNotKnowEachOther) {
   expectNumbered(list);
   EXPECT_TRUE(list.update(balls.position, balls.radius, 0));
   EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+}
+
+/// Many enough for rows to be filled in more than one part.
+Balls ballsInSpaceOrder() {
+  const Balls balls = randomFoam(5000, 0.5, 5, 0.9, 43);
+  std::vector<std::int32_t> order;
+  sortInSpace(balls.position, order);
+  Balls sorted;
+  for (const std::int32_t i : order) sorted.add(balls.position[i], balls.radius[i]);
+  return sorted;
+}
+
+TEST(OverlapPairs, RanksAreInputIndicesWhereTheInputIsInSpaceOrder) {
+  Balls balls = ballsInSpaceOrder();
+  OverlapPairs list;
+  for (const bool isInOrder : {true, false, true}) {
+    list.update(balls.position, balls.radius);
+    int same = 0;
+    for (int i = 0; i < list.size(); ++i) same += list.order()[i] == i && list.rank()[i] == i;
+    EXPECT_EQ(same == list.size(), isInOrder);
+    EXPECT_EQ(listedOverlaps(balls, list), allOverlaps(balls));
+    expectNumbered(list);
+    if (!isInOrder) {
+      balls = ballsInSpaceOrder();
+      continue;
+    }
+    for (int i = 1; i < list.size() / 2; i += 2) {  // leaps from end to end
+      std::swap(balls.position[i], balls.position[list.size() - 1 - i]);
+      std::swap(balls.radius[i], balls.radius[list.size() - 1 - i]);
+    }
+  }
+}
+
+TEST(OverlapPairs, StrangersBehindBallsInSpaceOrderDoNotKnowEachOther) {
+  Balls balls = ballsInSpaceOrder();
+  const int known = static_cast<int>(balls.size());
+  for (int i = 0; i < known; i += 5)
+    balls.add(balls.position[i] + Eigen::Vector3d(0.5 * balls.radius[i], 0, 0), balls.radius[i]);
+  OverlapPairs list;
+  list.update(balls.position, balls.radius, balls.size() - known);
+  EXPECT_EQ(list.order().back(), list.size() - 1);
+  PairSet expected;
+  for (const auto& [i, j] : allOverlaps(balls))
+    if (i < known) expected.insert({i, j});
+  EXPECT_EQ(listedOverlaps(balls, list), expected);
+  expectNumbered(list);
 }
 
 TEST(OverlapPairs, ACopyGoesOnByItself) {
