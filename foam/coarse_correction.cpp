@@ -46,8 +46,6 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
     for (std::int32_t i = firstRow_[g]; i < firstRow_[g + 1]; ++i) fillRow(a, swept, i);
     sumCluster(swept, g);
   });
-  factor_.order(matrix_);
-  factor();
 }
 
 /// What a translation does to a row depends on which of its neighbours are free.
@@ -135,6 +133,7 @@ void CoarseCorrection::findPattern(const BlockSystem& a, const SweptSystem& swep
   std::fill(link_.end() - kPadding, link_.end(), 0);
   forEachIndex(n, [&](std::size_t k) { listLinks(a, swept.source[k], &link_[start_[k]]); });
   listByCluster(swept);
+  factor_.order(matrix_);
 }
 
 /// Of each cluster the rows that know it, cluster after cluster of theirs.
@@ -208,6 +207,7 @@ void CoarseCorrection::sumCluster(const SweptSystem& swept, std::size_t g) {
 
 /// A cluster in which nothing is free counts as held by 1, and is not pulled.
 void CoarseCorrection::factor() {
+  if (clusters_ == 0) return;
   held_ = matrix_;
   for (std::size_t g = 0; g < clusters_; ++g) {
     const auto first = isFree_.begin() + firstRow_[g], last = isFree_.begin() + firstRow_[g + 1];

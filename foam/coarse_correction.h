@@ -25,9 +25,11 @@ class CoarseCorrection {
   /// With fewer clusters than this the factor alone is as quick.
   static constexpr std::size_t kLeastClusters = 16;
 
-  /// Takes on `a`, of which `swept` is a copy. With `wanted` false, or too few rows, there are no clusters,
-  /// and a correction costs nothing.
+  /// Takes on `a`, of which `swept` is a copy; factor() comes next. With `wanted` false, or too few rows,
+  /// there are no clusters, and a correction costs nothing.
   void build(const BlockSystem& a, const SweptSystem& swept, bool wanted);
+  /// Factors the clusters' matrix, on this thread.
+  void factor();
   /// Takes on own blocks of `rows` (numbered as in `a`) that have changed. Where they are few the factor of
   /// the clusters' matrix stays what it was.
   void refresh(const BlockSystem& a, const SweptSystem& swept, const std::vector<std::int32_t>& rows);
@@ -64,7 +66,6 @@ class CoarseCorrection {
   void forEachLinkOf(const SweptSystem& swept, std::size_t g, const Use& use) const;
   void fillRow(const BlockSystem& a, const SweptSystem& swept, std::size_t i);
   void sumCluster(const SweptSystem& swept, std::size_t g);
-  void factor();
   /// The rows of cluster g of the BlockSystem are firstRow(g) .. firstRow(g + 1) - 1.
   std::size_t firstRow(std::size_t g) const { return (g * cluster_.size() + clusters_ - 1) / clusters_; }
 

@@ -1,5 +1,7 @@
 #include "foam/implicit_solve.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -97,8 +99,11 @@ void ImplicitSolve::iterate(const BlockSystem& a, const Vectors3& b, double goal
   if (!std::exchange(isLaidOut_, true)) {
     const bool factors = solver_ == LinearSolver::pcgIncompleteCholesky;
     swept_.copy(a, factors);
-    Crew::lead(swept_.tasks(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
     coarse_.build(a, swept_, factors);
+    const auto factorRows = [&] {
+      Crew::lead(swept_.tasks(), [&](Crew& crew) { cholesky_.factor(crew, swept_); });
+    };
+    tbb::parallel_invoke(factorRows, [&] { coarse_.factor(); });
   }
   for (int pass = 0; pass < kRefinements && norm_ > goal && report.iterations < maxIterations; ++pass) {
     const double last = norm_, aim = std::max(kAim * goal, kSinglePrecision * last);

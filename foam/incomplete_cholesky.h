@@ -22,15 +22,14 @@ struct IncompleteCholesky {
 
   /// The crew has a.tasks() tasks.
   void factor(Crew& crew, const SweptSystem& a);
-  /// Takes on the diagonals of `rows` that SweptSystem::refresh has changed, each by itself: D grows by what
-  /// A has grown. What that does to later rows is left out; D stays positive definite, as above.
-  void refresh(const SweptSystem& a, const std::vector<std::int32_t>& rows);
+  /// Takes on the diagonals that SweptSystem::refresh has changed, each by itself: D grows by what A has
+  /// grown. What that does to later rows is left out; D stays positive definite, as above.
+  void refresh(const SweptSystem& a, const std::vector<SweptSystem::Growth>& rows);
 
  private:
   void setPivot(const SweptSystem& a, std::size_t k, const Eigen::Matrix3d& d);
 
-  std::vector<Eigen::Matrix3d> pivot_, diagonal_;  ///< D and A_ii as last set [kg]
-  std::vector<SymmetricSum> inverse_;              ///< D^-1 as sweeps apply it, G^T G [1/kg]
+  std::vector<SymmetricSum> inverse_;  ///< D^-1 as sweeps apply it, G^T G [1/kg]
 };
 
 }  // namespace spume::foam

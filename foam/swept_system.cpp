@@ -26,7 +26,7 @@ void SweptSystem::copy(const BlockSystem& a, bool sweeps) {
     inAhead += count.ahead, inKnown += count.behind + count.beyond;
   }
   ahead.resize(inAhead, static_cast<std::int32_t>(n)), known.resize(inKnown, static_cast<std::int32_t>(n));
-  forEachIndex(n, [&](std::size_t k) { copyRow(a, k), sumDiagonal(a, k); });
+  forEachIndex(n, [&](std::size_t k) { copyRow(a, k); });
 }
 
 /// As many blocks for each group of inner rows and of border rows, kAbreast; the last of them may be empty.
@@ -43,14 +43,14 @@ void SweptSystem::cutBlocks(const BlockSystem& a, bool sweeps) {
   firstBorder_ = static_cast<std::uint32_t>(most);
   cutAll(a, blocks);
   if (hasBorders) findBorders(a), cutBorders(a, blocks);
-  for (std::size_t i = 0; i < n; ++i) blocks_[blockOf_[i]].push_back(static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < n; ++i) blocks_[spot_[i].block].push_back(static_cast<std::int32_t>(i));
 }
 
 /// Those with a neighbour in a later block, without which no two blocks touch.
 void SweptSystem::findBorders(const BlockSystem& a) {
   isBorder_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) {
-    const auto isLater = [&](std::int32_t j) { return blockOf_[j] > blockOf_[i]; };
+    const auto isLater = [&](std::int32_t j) { return spot_[j].block > spot_[i].block; };
     isBorder_[i] = std::any_of(a.other.begin() + a.start[i], a.other.begin() + a.start[i + 1], isLater);
   });
   borders_.clear();
@@ -62,9 +62,9 @@ void SweptSystem::findBorders(const BlockSystem& a) {
 void SweptSystem::cutAll(const BlockSystem& a, std::size_t blocks) {
   const auto workBefore = [&](std::size_t i) { return kOwnWork * i + static_cast<std::size_t>(a.start[i]); };
   const std::size_t all = workBefore(a.size());
-  blockOf_.resize(a.size());
+  spot_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) {
-    blockOf_[i] = static_cast<std::uint32_t>(workBefore(i) * blocks / all);
+    spot_[i].block = static_cast<std::uint32_t>(workBefore(i) * blocks / all);
   });
 }
 
@@ -76,14 +76,14 @@ void SweptSystem::cutBorders(const BlockSystem& a, std::size_t blocks) {
   std::size_t all = 0, work = 0;
   for (const std::int32_t i : borders_) all += workOf(i);
   for (const std::int32_t i : borders_) {
-    blockOf_[i] = firstBorder_ + static_cast<std::uint32_t>(work * blocks / all);
+    spot_[i].block = firstBorder_ + static_cast<std::uint32_t>(work * blocks / all);
     work += workOf(i);
   }
 }
 
 /// Goes through the blocks of each group at speeds at which all end together.
 void SweptSystem::orderRows() {
-  source.clear(), source.reserve(blockOf_.size());
+  source.clear(), source.reserve(spot_.size());
   groupStart_ = {0};
   for (std::size_t first = 0; first < blocks_.size(); first += kAbreast) {
     std::size_t longest = 0, next[kAbreast] = {};
@@ -95,16 +95,15 @@ void SweptSystem::orderRows() {
       }
     groupStart_.push_back(source.size());
   }
-  place_.resize(source.size());
-  forEachIndex(source.size(), [&](std::size_t k) { place_[source[k]] = static_cast<std::int32_t>(k); });
+  forEachIndex(source.size(), [&](std::size_t k) { spot_[source[k]].place = static_cast<std::int32_t>(k); });
 }
 
 /// Of a coupling between two rows of the BlockSystem, of which one block or the round of border rows sweeps
 /// one after the other. Without branches, which nothing could foretell.
-SweptSystem::Kind SweptSystem::kindOf(std::int32_t source, std::int32_t other) const {
-  const std::uint32_t block = blockOf_[source], otherBlock = blockOf_[other];
-  const bool inTurn = (block == otherBlock) | ((block < firstBorder_) != (otherBlock < firstBorder_));
-  const bool isEarlier = place_[other] < place_[source];
+inline SweptSystem::Kind SweptSystem::kindOf(const Spot& row, const Spot& other) const {
+  const bool inTurn =
+      (row.block == other.block) | ((row.block < firstBorder_) != (other.block < firstBorder_));
+  const int isEarlier = other.place < row.place;
   return static_cast<Kind>(inTurn & sweeps_ ? isEarlier : 2);
 }
 
@@ -112,38 +111,47 @@ SweptSystem::Kind SweptSystem::kindOf(std::int32_t source, std::int32_t other) c
 SweptSystem::Row SweptSystem::countRow(const BlockSystem& a, std::size_t k) const {
   const std::int32_t i = source[k];
   std::int32_t count[3] = {};
-  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) ++count[static_cast<int>(kindOf(i, a.other[e]))];
-  return {count[0], count[1], count[2]};
+  for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) ++count[kindOf(spot_[i], spot_[a.other[e]])];
+  return {count[kAhead], count[kBehind], count[kBeyond]};
 }
 
 /// Couplings of one kind stay in the order of the BlockSystem.
 void SweptSystem::copyRow(const BlockSystem& a, std::size_t k) {
   const auto nobody = static_cast<std::int32_t>(a.size());
   const std::int32_t i = source[k];
-  std::int32_t place[3] = {row[k].ahead, row[k].behind, row[k].beyond};
-  Couplings* const list[3] = {&ahead, &known, &known};
+  const Spot spot = spot_[i];
+  std::int32_t* other[3] = {&ahead.other[row[k].ahead], &known.other[row[k].behind],
+                            &known.other[row[k].beyond]};
+  Coupling* block[3] = {&ahead.block[row[k].ahead], &known.block[row[k].behind], &known.block[row[k].beyond]};
   const std::int32_t shift[3] = {0, nobody + 1, 0};
+  SymmetricSum sum(a.own[i]);
   for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) {
-    const auto kind = static_cast<int>(kindOf(i, a.other[e]));
-    const std::int32_t to = place[kind]++;
-    Couplings& of = *list[kind];
-    of.other[to] = place_[a.other[e]] + shift[kind];
-    of.block[to] = a.block[e].number;
+    const Spot& at = spot_[a.other[e]];
+    const Kind kind = kindOf(spot, at);
+    *other[kind]++ = at.place + shift[kind];
+    *block[kind]++ = a.block[e].number;
+    sum.add(a.block[e].number);
   }
-}
-
-void SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) {
-  SymmetricSum sum(a.own[source[k]]);
-  for (std::int32_t e = row[k].ahead; e < row[k + 1].ahead; ++e) sum.add(ahead.block[e]);
-  for (std::int32_t e = row[k].behind; e < row[k + 1].behind; ++e) sum.add(known.block[e]);
   diagonal[k] = sum.matrix();
 }
 
-const std::vector<std::int32_t>& SweptSystem::refresh(const BlockSystem& a,
-                                                      const std::vector<std::int32_t>& rows) {
-  refreshed_.resize(rows.size());
-  forEachIndex(rows.size(), [&](std::size_t r) { sumDiagonal(a, refreshed_[r] = place_[rows[r]]); });
-  return refreshed_;
+Eigen::Matrix3d SweptSystem::sumDiagonal(const BlockSystem& a, std::size_t k) const {
+  SymmetricSum sum(a.own[source[k]]);
+  for (std::int32_t e = row[k].ahead; e < row[k + 1].ahead; ++e) sum.add(ahead.block[e]);
+  for (std::int32_t e = row[k].behind; e < row[k + 1].behind; ++e) sum.add(known.block[e]);
+  return sum.matrix();
+}
+
+const std::vector<SweptSystem::Growth>& SweptSystem::refresh(const BlockSystem& a,
+                                                             const std::vector<std::int32_t>& rows) {
+  growth_.resize(rows.size());
+  forEachIndex(rows.size(), [&](std::size_t r) {
+    const std::int32_t k = placeOf(rows[r]);
+    const Eigen::Matrix3d now = sumDiagonal(a, k);
+    growth_[r] = {k, now - diagonal[k]};
+    diagonal[k] = now;
+  });
+  return growth_;
 }
 
 }  // namespace spume::foam

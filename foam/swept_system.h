@@ -71,37 +71,47 @@ struct SweptSystem {
   /// Groups of a round, which are the tasks of a crew.
   std::size_t tasks() const { return tasks_; }
   /// Where row i of the BlockSystem stands here.
-  std::int32_t placeOf(std::size_t i) const { return place_[i]; }
+  std::int32_t placeOf(std::size_t i) const { return spot_[i].place; }
   /// The rows of group g are groupStart()[g] .. groupStart()[g + 1] - 1.
   const std::vector<std::size_t>& groupStart() const { return groupStart_; }
 
   /// Copies `a`. With `sweeps` false all couplings count as beyond their block: nothing to sweep along.
   void copy(const BlockSystem& a, bool sweeps);
-  /// Copies the own blocks of `rows` again, which is all that has changed. Returns where they stand here.
-  const std::vector<std::int32_t>& refresh(const BlockSystem& a, const std::vector<std::int32_t>& rows);
+  /// A row whose own block has changed.
+  struct Growth {
+    std::int32_t row;    ///< here
+    Eigen::Matrix3d by;  ///< what its diagonal has grown by [kg]
+  };
+  /// Copies the own blocks of `rows` again, which is all that has changed.
+  const std::vector<Growth>& refresh(const BlockSystem& a, const std::vector<std::int32_t>& rows);
 
  private:
-  enum class Kind : std::uint8_t { ahead = 0, behind = 1, beyond = 2 };
+  enum Kind : std::uint8_t { kAhead = 0, kBehind = 1, kBeyond = 2 };
+  /// Of a row of the BlockSystem: its row here, and its block.
+  struct Spot {
+    std::int32_t place;
+    std::uint32_t block;
+  };
+
   void cutBlocks(const BlockSystem& a, bool sweeps);
   void findBorders(const BlockSystem& a);
   void cutAll(const BlockSystem& a, std::size_t blocks);
   void cutBorders(const BlockSystem& a, std::size_t blocks);
   void orderRows();
-  Kind kindOf(std::int32_t source, std::int32_t other) const;
+  Kind kindOf(const Spot& row, const Spot& other) const;
   Row countRow(const BlockSystem& a, std::size_t k) const;
   void copyRow(const BlockSystem& a, std::size_t k);
-  void sumDiagonal(const BlockSystem& a, std::size_t k);
+  Eigen::Matrix3d sumDiagonal(const BlockSystem& a, std::size_t k) const;
 
   bool sweeps_ = false;  ///< as copy() was told
   std::size_t tasks_ = 1;
   std::vector<std::size_t> groupStart_ = {0};
   std::vector<std::vector<std::int32_t>> blocks_;  ///< rows of the BlockSystem by block, kAbreast a group
-  std::vector<std::int32_t> place_;                ///< row of each of the BlockSystem's
   std::vector<std::int32_t> borders_;              ///< border rows of the BlockSystem
   std::vector<std::uint8_t> isBorder_;             ///< by rows of the BlockSystem
   std::uint32_t firstBorder_ = 0;                  ///< block of border rows
-  std::vector<std::uint32_t> blockOf_;             ///< block of each of the BlockSystem's rows
-  std::vector<std::int32_t> refreshed_;            ///< rows of the last refresh()
+  std::vector<Spot> spot_;                         ///< of each of the BlockSystem's rows
+  std::vector<Growth> growth_;                     ///< of the last refresh()
 };
 
 /// Calls body(group) for all groups, those of inner rows first.

@@ -32,7 +32,9 @@ BlockSystem sheet() {
 struct Clusters {
   SweptSystem swept;
   CoarseCorrection coarse;
-  explicit Clusters(const BlockSystem& a) { swept.copy(a, true), coarse.build(a, swept, true); }
+  explicit Clusters(const BlockSystem& a) {
+    swept.copy(a, true), coarse.build(a, swept, true), coarse.factor();
+  }
 
   Vectors3 spread(const Eigen::VectorXd& motion) const {
     Vectors3 v(swept.size(), Eigen::Vector3d::Zero());
