@@ -185,8 +185,9 @@ BubbleClass reclassify(BubbleClass before, double phi, double radius, double sur
 }
 
 void relabel(const Eigen::VectorXd& phi, BubbleStore& bubbles) {
-  for (std::size_t i = 0; i < bubbles.size(); ++i)
+  forEachIndex(bubbles.size(), [&](std::size_t i) {
     bubbles.type[i] = reclassify(bubbles.type[i], phi[i], bubbles.radius[i], bubbles.surfaceWeight[i]);
+  });
 }
 
 }  // namespace spume::foam

@@ -54,7 +54,7 @@ struct FoamSolver::Internals {
   std::vector<std::uint64_t> topologyId;  ///< ids of the topology's rows
   Neighbours neighbours;
   Surroundings around;
-  std::vector<double> widest;  ///< largest radius of each bubble in this step [m]
+  std::vector<double> widest;  ///< largest radius of each bubble in this step, where walls are near [m]
   WallSearch wallSearch;
   std::vector<NearWalls> walls;
   BorderDrift drift;
@@ -73,6 +73,7 @@ struct FoamSolver::Internals {
   void take(const BubbleStore& bubbles);
   void giveBack(BubbleStore& bubbles);
   std::vector<std::ptrdiff_t> rowsOfTopology(const BubbleStore& bubbles) const;
+  double largestRadius(std::size_t i) const;
   void findWalls(const LiquidSampler& liquid);
   void findReachableWalls(const LiquidSampler& liquid);
   void measure();
@@ -113,12 +114,17 @@ std::vector<std::ptrdiff_t> FoamSolver::Internals::rowsOfTopology(const BubbleSt
   return rows;
 }
 
+/// Radius that bubble i may take, if it may then be cut by the nearest wall.
+double FoamSolver::Internals::largestRadius(std::size_t i) const {
+  const double psi = around.psi[static_cast<Eigen::Index>(i)], gas = next.gas[i];
+  const bool isFar = ballVolume(std::max(psi, 0.0) / params.radiusLimit) > gas;  // found without a root
+  return isFar ? next.radius[i] : std::max(next.radius[i], params.radiusLimit * gasRadius(gas));
+}
+
 /// Finds the walls that may cut a bubble, at any radius it may take.
 void FoamSolver::Internals::findWalls(const LiquidSampler& liquid) {
   widest.resize(next.size());
-  forEachIndex(next.size(), [&](std::size_t i) {
-    widest[i] = std::max(next.radius[i], params.radiusLimit * gasRadius(next.gas[i]));
-  });
+  forEachIndex(next.size(), [&](std::size_t i) { widest[i] = largestRadius(i); });
   if (isAnyCutByWall(widest, around.psi))
     wallSearch.find(liquid, around, next, widest, walls);
   else
@@ -176,7 +182,7 @@ void FoamSolver::Internals::moveTogether(const LiquidSampler& liquid, double dt,
   integrator.advance(dt, next);
   drift.advance(next);
   requireSound(next, "after the implicit solve of a step", dt);
-  report.pushedOut = keepOutOfSolids(liquid, next);
+  report.pushedOut = keepOutOfSolids(liquid, next, psiEnd);
   report.kineticEnergy = integrator.kineticEnergy();
   noteImpulses(dt);
 }
@@ -190,10 +196,8 @@ void FoamSolver::Internals::noteImpulses(double dt) {
 }
 
 void FoamSolver::Internals::sampleEnd(const LiquidSampler& liquid) {
-  phiEnd.resize(static_cast<Eigen::Index>(next.size())), psiEnd.resize(phiEnd.size());
-  if (next.size() == 0) return;
-  liquid.phi(next.positions(), phiEnd);
-  liquid.psi(next.positions(), psiEnd);
+  phiEnd.resize(static_cast<Eigen::Index>(next.size()));
+  if (next.size() != 0) liquid.phi(next.positions(), phiEnd);
 }
 
 void FoamSolver::Internals::reportClassChanges(const BubbleStore& before, FoamStepReport& report) const {

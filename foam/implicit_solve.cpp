@@ -39,18 +39,18 @@ double ImplicitSolve::begin(const BlockSystem& a, const Vectors3& b, const Vecto
   return norm_;
 }
 
-/// A row's residual depends on its neighbours' x.
+double ImplicitSolve::begin(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
+                            const std::vector<std::int32_t>& rows) {
+  isLaidOut_ = false;
+  residual_ = b, drift_ = 0;
+  findResidualAround(a, b, x, rows);
+  return norm_;
+}
+
 double ImplicitSolve::follow(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
                              const std::vector<std::int32_t>& rows) {
-  isStale_.assign(a.size(), 0);
-  for (const std::int32_t i : rows) {
-    isStale_[i] = 1;
-    for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) isStale_[a.other[e]] = 1;
-  }
-  forEachIndex(a.size(), [&](std::size_t i) {
-    if (isStale_[i]) residual_[i] = b[i] - a.row(i, x);
-  });
-  norm_ = lengthOf(residual_);
+  if (rows.empty()) return norm_;
+  findResidualAround(a, b, x, rows);
   if (!isLaidOut_) return norm_;
   cholesky_.refresh(swept_, swept_.refresh(a, rows));
   coarse_.refresh(a, swept_, rows);
@@ -61,6 +61,24 @@ void ImplicitSolve::findResidual(const BlockSystem& a, const Vectors3& b, const 
   residual_.resize(a.size());
   forEachIndex(a.size(), [&](std::size_t i) { residual_[i] = b[i] - a.row(i, x); });
   norm_ = lengthOf(residual_), drift_ = 0;
+}
+
+/// Of `rows` and their neighbours: a row's residual depends on its neighbours' x.
+void ImplicitSolve::findResidualAround(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
+                                       const std::vector<std::int32_t>& rows) {
+  isStale_.assign(a.size(), 0), stale_.clear();
+  const auto add = [&](std::int32_t i) {
+    if (!std::exchange(isStale_[i], 1)) stale_.push_back(i);
+  };
+  for (const std::int32_t i : rows) {
+    add(i);
+    for (std::int32_t e = a.start[i]; e < a.start[i + 1]; ++e) add(a.other[e]);
+  }
+  forEachIndex(stale_.size(), [&](std::size_t k) {
+    const auto i = static_cast<std::size_t>(stale_[k]);
+    residual_[i] = b[i] - a.row(i, x);
+  });
+  norm_ = lengthOf(residual_);
 }
 
 double ImplicitSolve::roundOff(const BlockSystem& a, const Vectors3& x) {

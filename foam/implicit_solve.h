@@ -32,6 +32,9 @@ class ImplicitSolve {
   static double roundOff(const BlockSystem& a, const Vectors3& x);
   /// Takes on the system A x = b with a first guess. Returns |b - A x| [kg m/s].
   double begin(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
+  /// The same where x is zero but for those of `rows`.
+  double begin(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
+               const std::vector<std::int32_t>& rows);
   /// The same when only own blocks, b and x of `rows` have changed since the system was last looked at: all
   /// that does not depend on these is kept.
   double follow(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
@@ -54,6 +57,8 @@ class ImplicitSolve {
 
  private:
   void findResidual(const BlockSystem& a, const Vectors3& b, const Vectors3& x);
+  void findResidualAround(const BlockSystem& a, const Vectors3& b, const Vectors3& x,
+                          const std::vector<std::int32_t>& rows);
   void iterate(const BlockSystem& a, const Vectors3& b, double goal, int maxIterations, SolveWatch& watch,
                Vectors3& x, SolveReport& report);
   bool solveDirectly(const BlockSystem& a, const Vectors3& b, double goal, Vectors3& x);
@@ -68,7 +73,8 @@ class ImplicitSolve {
   Vectors3 residual_;
   double norm_ = 0;                    ///< of the residual [kg m/s]
   double drift_ = 0;                   ///< by about how much it is off [kg m/s]
-  std::vector<std::uint8_t> isStale_;  ///< rows whose residual follow() has to find again
+  std::vector<std::int32_t> stale_;    ///< rows whose residual has to be found again
+  std::vector<std::uint8_t> isStale_;  ///< 1 for these
 };
 
 }  // namespace spume::foam

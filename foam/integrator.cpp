@@ -112,22 +112,24 @@ SolveReport Integrator::couple(const BubbleStore& bubbles, const FoamTopology& t
   const std::size_t n = lone_.size();
   findPairs(bubbles, topology, dt);
   system_.own.resize(n), impulse_.resize(n), impulseScale_.resize(n), velocity_.resize(n);
-  change_.resize(n);
+  change_.resize(n), expected_.resize(n);
   system_.start = neighbours.start;
   system_.other.resize(neighbours.other.size()), system_.block.resize(neighbours.other.size());
-  forEachIndex(n, [&](std::size_t i) { assembleRow(i, neighbours); });
-  contacts_.begin(walls, motion_, mass_, dt, change_, system_, impulse_);
-  const SolveReport report = solveWithContacts(dt);
+  forEachIndex(n, [&](std::size_t i) { assembleRow(i, bubbles.velocity, neighbours); });
+  const auto& stuck =
+      contacts_.begin(walls, bubbles.velocity, expected_, mass_, dt, change_, system_, impulse_);
+  const SolveReport report = solveWithContacts(bubbles.velocity, stuck, dt);
   if (!report.converged) failToConverge(report, solver_.left(), bubbles, dt);
-  forEachIndex(n, [&](std::size_t i) { velocity_[i] = motion_[i].velocity + change_[i]; });
+  forEachIndex(n, [&](std::size_t i) { velocity_[i] = bubbles.velocity[i] + change_[i]; });
   return report;
 }
 
-SolveReport Integrator::solveWithContacts(double dt) {
-  const double first = solver_.begin(system_, impulse_, change_);
+SolveReport Integrator::solveWithContacts(const Vectors3& before, const std::vector<std::int32_t>& stuck,
+                                          double dt) {
+  const double first = solver_.begin(system_, impulse_, change_, stuck);
   const double goal = std::max(params_.solverTolerance * first, smallestGoal());
   const auto stops = [&](std::int32_t i, const Eigen::Vector3d& change) {
-    return contacts_.isChangedBy(i, motion_[i], change, dt);
+    return contacts_.isChangedBy(i, before[i] + change, dt);
   };
   SolveWatch watch = {kFirstAim * first, kAimStep, kAllowedDrift * goal, {}, stops};
   SolveReport report;
@@ -138,7 +140,7 @@ SolveReport Integrator::solveWithContacts(double dt) {
     const SolveReport done = solver_.solve(system_, impulse_, goal, left, change_, watch);
     report = {report.iterations + done.iterations, done.residual, done.converged, done.stopped,
               report.fellBack || done.fellBack};
-    const auto& changed = contacts_.update(motion_, solver_.left(), dt, change_, system_, impulse_);
+    const auto& changed = contacts_.update(before, solver_.left(), dt, change_, system_, impulse_);
     solver_.follow(system_, impulse_, change_, changed);
     if (!done.stopped && (!done.converged || changed.empty())) break;
   }
@@ -151,7 +153,7 @@ void Integrator::findPairs(const BubbleStore& bubbles, const FoamTopology& topol
   const std::size_t pairs = topology.overlaps.size();
   paired_.resize(bubbles.size()), pairBlock_.resize(pairs), pairImpulse_.resize(pairs);
   forEachIndex(paired_.size(), [&](std::size_t i) {
-    const Eigen::Vector3d &x = bubbles.position[i], &v = motion_[i].velocity;
+    const Eigen::Vector3d &x = bubbles.position[i], &v = bubbles.velocity[i];
     paired_[i] = {{x.x(), x.y(), x.z()}, {v.x(), v.y(), v.z()}, bubbles.radius[i], mass_[i]};
   });
   const PairForces::Foam foam = {params_, SpringLaw(params_), bubbles, topology, paired_};
@@ -192,10 +194,11 @@ void Integrator::setPairs(const PairForces& forces, const FoamTopology& topology
   }
 }
 
-void Integrator::assembleRow(std::size_t i, const Neighbours& neighbours) {
+void Integrator::assembleRow(std::size_t i, const Vectors3& before, const Neighbours& neighbours) {
   const LinearMotion& motion = motion_[i];
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
-  double size = lone_[i].mass * motion.velocity.norm();
+  const Eigen::Vector3d expected = motion.velocity - before[i];
+  Eigen::Vector3d impulse = motion.matrix * expected;
+  double size = mass_[i] * motion.velocity.norm();
   for (std::int32_t e = neighbours.start[i]; e < neighbours.start[i + 1]; ++e) {
     const std::int32_t pair = neighbours.pair[e], other = neighbours.other[e];
     const PairImpulse& of = pairImpulse_[pair];
@@ -205,8 +208,7 @@ void Integrator::assembleRow(std::size_t i, const Neighbours& neighbours) {
     size += of.size;
   }
   system_.own[i] = motion.matrix, impulse_[i] = impulse, impulseScale_[i] = size;
-  // From the old velocities: what is at rest then starts with no residual, and stays at rest to round-off.
-  change_[i] = lone_[i].velocity - motion.velocity;
+  expected_[i] = expected.norm(), change_[i].setZero();
 }
 
 double Integrator::smallestGoal() const {

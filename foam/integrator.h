@@ -18,9 +18,10 @@
 namespace spume::foam {
 
 /// The implicit step of [Busaryev 2012, Eq. 9] with its corrections: first every bubble alone, then all
-/// together, (M - dt df/dv - dt^2 df/dx) dv = impulses at the prediction. Deviation: Eq. 9 lacks -dt (df/dv)
-/// v and dt^2 (df/dx) v on the right; here the unknown is the change against the prediction, and every force
-/// contributes at its own velocity, so both are there.
+/// together, (M - dt df/dv - dt^2 df/dx) dv = impulses at the old velocities, where dv is the change against
+/// these: what is at rest starts with no residual, and stays at rest to round-off. Deviation: Eq. 9 lacks
+/// -dt (df/dv) v and dt^2 (df/dx) v on the right; here every force contributes as it would be at the end of
+/// the step if velocities stayed as they are, so both are there.
 class Integrator {
  public:
   explicit Integrator(const FoamParams& params) : params_(params), drag_(params), solver_(params.solver) {}
@@ -45,7 +46,7 @@ class Integrator {
 
   const std::vector<double>& mass() const { return mass_; }  ///< inertia of each bubble [kg]
   const Vectors3& velocities() const { return velocity_; }
-  /// The system of the last couple(), with the wall contacts it ended with.
+  /// The system of the last couple() for the change of the velocities, with the wall contacts it ended with.
   const BlockSystem& system() const { return system_; }
   const Vectors3& impulses() const { return impulse_; }
   double kineticEnergy() const;  ///< with the new velocities [J]
@@ -60,9 +61,10 @@ class Integrator {
   void findPairs(const BubbleStore& bubbles, const FoamTopology& topology, double dt);
   void setPairs(const PairForces& forces, const FoamTopology& topology, std::size_t first, std::size_t count,
                 double dt);
-  void assembleRow(std::size_t i, const Neighbours& neighbours);
-  /// Solves, and again while wall contacts change.
-  SolveReport solveWithContacts(double dt);
+  void assembleRow(std::size_t i, const Vectors3& before, const Neighbours& neighbours);
+  /// Solves, and again while wall contacts change; `before`: the old velocities, `stuck`: the bubbles whose
+  /// change is not 0 at first.
+  SolveReport solveWithContacts(const Vectors3& before, const std::vector<std::int32_t>& stuck, double dt);
   /// Residual not worth improving [kg m/s]: round-off, or kRestSpeed of every bubble.
   double smallestGoal() const;
 
@@ -75,8 +77,9 @@ class Integrator {
   std::vector<CouplingBlock> pairBlock_;
   std::vector<PairImpulse> pairImpulse_;
   BlockSystem system_;
-  Vectors3 impulse_, change_, velocity_;
-  std::vector<double> impulseScale_;  ///< sum of the sizes of what adds up to each impulse [kg m/s]
+  Vectors3 impulse_, change_, velocity_;  ///< change_: against the old velocities
+  std::vector<double> expected_;          ///< size of each bubble's change if it were alone [m/s]
+  std::vector<double> impulseScale_;      ///< sum of the sizes of what adds up to each impulse [kg m/s]
   WallContacts contacts_;
   ImplicitSolve solver_;
 };

@@ -96,7 +96,8 @@ void PairForces::find(const Foam& foam, std::size_t first, std::size_t count) {
         strongSpring(stiffness, of.ri[k], of.rj[k], of.wetness[k], of.distance[k], of.filmArea[k]);
     tension[k] = pull.tension, along[k] = pull.along, across[k] = pull.across;
     damping[k] = of.hasFilm[k] * contactDamping(zeta, stiffness, of.mi[k], of.mj[k]);
-    for (Column& column : direction) column[k] /= of.distance[k];
+    const double inverse = 1 / of.distance[k];
+    for (Column& column : direction) column[k] *= inverse;
   }
   partCoincident(foam, of, first, count, *this);
   if (holdsVolumes(foam.params)) stiffenSqueezed(foam, of, first, count, *this);

@@ -19,11 +19,12 @@ bool hasCell(const FoamTopology& topology, std::size_t i) {
   return !topology.hidden[i] && topology.volume[i] > 0;
 }
 
-/// Sets a radius within its limit.
+/// Sets a radius within its limit. Few are beyond it, and volumes tell who is without a root.
 void setRadius(const FoamParams& params, std::size_t i, double wanted, BubbleStore& bubbles) {
-  const double most = params.radiusLimit * gasRadius(bubbles.gas[i]);
-  bubbles.clamped[i] = wanted > most;
-  bubbles.radius[i] = std::min(wanted, most);
+  const double gas = bubbles.gas[i];
+  const bool isBeyond = ballVolume(wanted / params.radiusLimit) > gas;
+  bubbles.clamped[i] = isBeyond;
+  bubbles.radius[i] = isBeyond ? params.radiusLimit * gasRadius(gas) : wanted;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -55,60 +56,70 @@ void WallContacts::describe(const FoamParams& params, const Surroundings& around
   });
 }
 
-void WallContacts::begin(const std::vector<NearWalls>& walls, const std::vector<LinearMotion>& motion,
-                         const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
-                         Vectors3& impulse) {
+const std::vector<std::int32_t>& WallContacts::begin(
+    const std::vector<NearWalls>& walls, const Vectors3& before, const std::vector<double>& expected,
+    const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system, Vectors3& impulse) {
   walls_ = walls.data(), room_.resize(walls.size()), round_ = 0;
   closed_.assign(grip_.size(), 0), brake_.assign(grip_.size(), 0.0);
   seen_.resize(grip_.size()), found_.resize(grip_.size());
   forEachIndex(grip_.size(), [&](std::size_t i) {
     Grip& grip = grip_[i];
-    const Vector3d velocity = motion[i].velocity + change[i];
-    for (int k = 0; k < walls_[i].count; ++k)
-      updateContact(i, k, motion[i].velocity, velocity, dt, system, impulse);
-    room_[i] = roomOf(i, motion[i].velocity, dt);
-    seen_[i].setZero(), found_[i] = isDoubtful(i, motion[i], change[i], dt) ? kDoubtful : 0;
+    const Vector3d velocity = before[i] + change[i];
+    for (int k = 0; k < walls_[i].count; ++k) updateContact(i, k, before[i], velocity, dt, system, impulse);
+    room_[i] = roomOf(i, before[i], dt), seen_[i] = change[i];
+    found_[i] = isInDoubt(i, velocity, expected[i], dt) ? kDoubtful : 0;
     if (grip.adhesion == 0 || walls_[i].count == 0) return;
     found_[i] = kDoubtful;
     const NearWall& wall = walls_[i].wall[0];
     // Eq. 7, -s psi grad psi, implicit: the spring rests with the bubble's centre on the wall.
     system.own[i] += dt * dt * grip.adhesion * wall.away * wall.away.transpose();
-    impulse[i] -= dt * grip.adhesion * wall.psiAfter(motion[i].velocity, dt) * wall.away;
+    impulse[i] -= dt * grip.adhesion * wall.psiAfter(before[i], dt) * wall.away;
     grip.hold = (mass[i] + dt * dt * grip.stiffness) / kGiveWay;
     const Vector3d slip = alongWall(wall) * (velocity - wall.velocity);
     const double strength = dt * grip.pinning, speed = slip.norm();
     const bool sticks = grip.hold * speed <= strength;
-    if (sticks) change[i] -= slip;
-    setBrake(i, sticks ? grip.hold : strength / speed, motion[i].velocity, system, impulse);
-  });
-  listFound();
-}
-
-const std::vector<std::int32_t>& WallContacts::update(const std::vector<LinearMotion>& motion,
-                                                      const Vectors3& left, double dt, Vectors3& change,
-                                                      BlockSystem& system, Vectors3& impulse) {
-  const bool setsBrakes = round_++ < kBrakeRounds;
-  forEachIndex(grip_.size(), [&](std::size_t i) {
-    found_[i] = 0;
-    if (kFar * kFar * change[i].squaredNorm() < room_[i] * room_[i]) return;
-    const Vector3d predicted = motion[i].velocity, velocity = predicted + change[i];
-    bool changed = false;
-    for (int k = 0; k < walls_[i].count; ++k)
-      changed |= updateContact(i, k, predicted, velocity, dt, system, impulse);
-    if (setsBrakes && brake_[i] > 0)
-      changed |= updateBrake(i, predicted, left[i].norm(), dt, change[i], system, impulse);
-    if (changed) found_[i] |= kChanged, room_[i] = roomOf(i, predicted, dt);
-    if (isDoubtful(i, motion[i], change[i], dt)) found_[i] |= kDoubtful;
+    if (sticks) change[i] -= slip, found_[i] |= kChanged;
+    setBrake(i, sticks ? grip.hold : strength / speed, before[i], system, impulse);
   });
   listFound();
   return changed_;
 }
 
+const std::vector<std::int32_t>& WallContacts::update(const Vectors3& before, const Vectors3& left, double dt,
+                                                      Vectors3& change, BlockSystem& system,
+                                                      Vectors3& impulse) {
+  const bool setsBrakes = round_++ < kBrakeRounds;
+  forEachIndex(grip_.size(), [&](std::size_t i) {
+    found_[i] = 0;
+    if (kFar * kFar * change[i].squaredNorm() < room_[i] * room_[i]) return;
+    const Vector3d velocity = before[i] + change[i];
+    bool changed = false;
+    for (int k = 0; k < walls_[i].count; ++k)
+      changed |= updateContact(i, k, before[i], velocity, dt, system, impulse);
+    if (setsBrakes && brake_[i] > 0)
+      changed |= updateBrake(i, before[i], left[i].norm(), dt, change[i], system, impulse);
+    if (changed) found_[i] |= kChanged, room_[i] = roomOf(i, before[i], dt);
+    if (isDoubtful(i, before[i], change[i], dt)) found_[i] |= kDoubtful;
+  });
+  listFound();
+  return changed_;
+}
+
+/// Of most bubbles nothing has been found: eight are passed over at a time.
 void WallContacts::listFound() {
   changed_.clear(), doubtful_.clear();
-  for (std::size_t i = 0; i < found_.size(); ++i) {
+  for (std::size_t i = 0; i < found_.size();) {
+    std::uint64_t eight = 0;
+    if (i + sizeof eight <= found_.size()) {
+      std::memcpy(&eight, &found_[i], sizeof eight);
+      if (eight == 0) {
+        i += sizeof eight;
+        continue;
+      }
+    }
     if (found_[i] & kChanged) changed_.push_back(static_cast<std::int32_t>(i));
     if (found_[i] & kDoubtful) doubtful_.push_back(static_cast<std::int32_t>(i));
+    ++i;
   }
 }
 
@@ -125,27 +136,30 @@ bool WallContacts::flips(std::size_t i, int k, double overlap) const {
   return (overlap > 0) != isClosed && std::abs(overlap) >= kResolution * grip_[i].radius;
 }
 
-bool WallContacts::isChangedBy(std::size_t i, const LinearMotion& motion, const Vector3d& change,
-                               double dt) const {
+bool WallContacts::isChangedBy(std::size_t i, const Vector3d& velocity, double dt) const {
   if (round_ < kBrakeRounds && brake_[i] > 0) return true;
   for (int k = 0; k < walls_[i].count; ++k)
-    if (flips(i, k, overlapOf(i, k, motion.velocity + change, dt))) return true;
+    if (flips(i, k, overlapOf(i, k, velocity, dt))) return true;
   return false;
 }
 
-/// Notes the change of a bubble's velocity; compares what it takes to open or close a contact with what it
-/// has changed by since it was noted last.
-bool WallContacts::isDoubtful(std::size_t i, const LinearMotion& motion, const Vector3d& change, double dt) {
+/// Notes the change of a bubble's velocity, for the next time.
+bool WallContacts::isDoubtful(std::size_t i, const Vector3d& before, const Vector3d& change, double dt) {
   const double moved = (change - std::exchange(seen_[i], change)).norm();
+  return isInDoubt(i, before + change, moved, dt);
+}
+
+/// Compares what it takes to open or close a contact with by how much the velocity has just changed.
+bool WallContacts::isInDoubt(std::size_t i, const Vector3d& velocity, double moved, double dt) const {
   if (round_ < kBrakeRounds && brake_[i] > 0) return true;
   for (int k = 0; k < walls_[i].count; ++k) {
-    const double overlap = overlapOf(i, k, motion.velocity + change, dt);
+    const double overlap = overlapOf(i, k, velocity, dt);
     if (std::abs(overlap) <= kDoubt * moved * dt * walls_[i].wall[k].away.norm()) return true;
   }
   return false;
 }
 
-bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& predicted, const Vector3d& velocity,
+bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& before, const Vector3d& velocity,
                                  double dt, BlockSystem& system, Vectors3& impulse) {
   const Grip& grip = grip_[i];
   const NearWall& wall = walls_[i].wall[k];
@@ -153,51 +167,51 @@ bool WallContacts::updateContact(std::size_t i, int k, const Vector3d& predicted
   if (!flips(i, k, overlap)) return false;
   closed_[i] ^= static_cast<std::uint8_t>(1u << k);
   const double signedDt = overlap > 0 ? dt : -dt;
-  const double push = wallContact(grip.stiffness, wall.psiAfter(predicted, dt), gapOf(i, k));
+  const double push = wallContact(grip.stiffness, wall.psiAfter(before, dt), gapOf(i, k));
   system.own[i] -= signedDt * dt * wallContactSlope(grip.stiffness) * wall.away * wall.away.transpose();
   impulse[i] += signedDt * push * wall.away;
   return true;
 }
 
 /// Most bubbles are far from all walls, and to find that out again in every round takes a look at one number.
-double WallContacts::roomOf(std::size_t i, const Vector3d& predicted, double dt) const {
+double WallContacts::roomOf(std::size_t i, const Vector3d& before, double dt) const {
   constexpr double kSurely = 0.999;  // with room for rounding
   const Grip& grip = grip_[i];
   if (closed_[i] || brake_[i] > 0 || grip.adhesion > 0) return 0;
   double room = std::numeric_limits<double>::max();
   for (int k = 0; k < walls_[i].count; ++k) {
     const NearWall& wall = walls_[i].wall[k];
-    const double above = wall.psiAfter(predicted, dt) - gapOf(i, k);
+    const double above = wall.psiAfter(before, dt) - gapOf(i, k);
     room = std::min(room, kSurely * above / (dt * wall.away.norm()));
   }
   return std::max(0.0, room);
 }
 
-void WallContacts::setBrake(std::size_t i, double brake, const Vector3d& predicted, BlockSystem& system,
+void WallContacts::setBrake(std::size_t i, double brake, const Vector3d& before, BlockSystem& system,
                             Vectors3& impulse) {
   const NearWall& wall = walls_[i].wall[0];
   const Matrix3d more = (brake - brake_[i]) * alongWall(wall);
   system.own[i] += more;
-  impulse[i] -= more * (predicted - wall.velocity);
+  impulse[i] -= more * (before - wall.velocity);
   brake_[i] = brake;
 }
 
 /// Coulomb's law for one bubble while its neighbours keep their velocities. The slip v found with the brake b
 /// shows what it would take to stop the bubble, (D + b) v where D is all else that resists it; less than the
 /// pin's strength s stops it, otherwise the slip becomes ((D + b) v - s) / D.
-bool WallContacts::updateBrake(std::size_t i, const Vector3d& predicted, double error, double dt,
+bool WallContacts::updateBrake(std::size_t i, const Vector3d& before, double error, double dt,
                                Vector3d& change, BlockSystem& system, Vectors3& impulse) {
   const NearWall& wall = walls_[i].wall[0];
   const Matrix3d along = alongWall(wall);
-  const Vector3d slip = along * (predicted + change - wall.velocity);
-  const double speed = slip.norm(), strength = dt * grip_[i].pinning, before = brake_[i];
-  const double other = 0.5 * (along * (system.diagonal(i) - before * along)).trace();
-  const double excess = (other + before) * speed - strength;
+  const Vector3d slip = along * (before + change - wall.velocity);
+  const double speed = slip.norm(), strength = dt * grip_[i].pinning, former = brake_[i];
+  const double other = 0.5 * (along * (system.diagonal(i) - former * along)).trace();
+  const double excess = (other + former) * speed - strength;
   const bool sticks = excess <= error;
   const double brake = sticks ? grip_[i].hold : std::min(grip_[i].hold, strength * other / excess);
-  if (std::abs(brake - before) <= kSameBrake * before) return false;
+  if (std::abs(brake - former) <= kSameBrake * former) return false;
   change -= sticks ? slip : (1 - excess / (other * speed)) * slip;
-  setBrake(i, brake, predicted, system, impulse);
+  setBrake(i, brake, before, system, impulse);
   return true;
 }
 

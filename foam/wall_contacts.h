@@ -7,7 +7,6 @@
 #include "foam/bubble_store.h"
 #include "foam/foam_params.h"
 #include "foam/near_walls.h"
-#include "foam/predictor.h"
 #include "foam/surroundings.h"
 
 namespace spume::foam {
@@ -25,24 +24,23 @@ class WallContacts {
   void describe(const FoamParams& params, const Surroundings& around, const std::vector<double>& immersed,
                 BubbleStore& bubbles);
 
-  /// Adds contacts, adhesion and brakes to the system, for the walls found on the way of `motion`, as suits
-  /// the velocities motion + change, of which it takes the slip of what is stuck: a start from which the
-  /// stiff hold of one bubble does not set the scale of the residual of all. `walls` are looked at by
-  /// update() too.
-  void begin(const std::vector<NearWalls>& walls, const std::vector<LinearMotion>& motion,
-             const std::vector<double>& mass, double dt, Vectors3& change, BlockSystem& system,
-             Vectors3& impulse);
+  /// Adds contacts, adhesion and brakes to the system of the change against the velocities `before`, as
+  /// suits before + change, of which it takes the slip of what is stuck: a start from which the stiff hold of
+  /// one bubble does not set the scale of the residual of all. Returns these bubbles. `walls` are looked at
+  /// by update() too; `expected`: by how much one may expect each velocity to change [m/s].
+  const std::vector<std::int32_t>& begin(const std::vector<NearWalls>& walls, const Vectors3& before,
+                                         const std::vector<double>& expected, const std::vector<double>& mass,
+                                         double dt, Vectors3& change, BlockSystem& system, Vectors3& impulse);
 
-  /// Closes and opens contacts, in the first rounds also sets brakes anew, to suit motion + change; returns
+  /// Closes and opens contacts, in the first rounds also sets brakes anew, to suit before + change; returns
   /// the bubbles for which any changed. A closed contact is a spring in the system, so it stops a bubble
   /// however its neighbours push. `left` is what the solve leaves of each row [N s]: no pin gives way to
   /// less. Gives bubbles whose brake has changed the slip that suits it.
-  const std::vector<std::int32_t>& update(const std::vector<LinearMotion>& motion, const Vectors3& left,
-                                          double dt, Vectors3& change, BlockSystem& system,
-                                          Vectors3& impulse);
+  const std::vector<std::int32_t>& update(const Vectors3& before, const Vectors3& left, double dt,
+                                          Vectors3& change, BlockSystem& system, Vectors3& impulse);
 
-  /// Whether the next update() would change anything for bubble i with this change of its velocity.
-  bool isChangedBy(std::size_t i, const LinearMotion& motion, const Eigen::Vector3d& change, double dt) const;
+  /// Whether the next update() would change anything for bubble i with this velocity.
+  bool isChangedBy(std::size_t i, const Eigen::Vector3d& velocity, double dt) const;
   /// The bubbles of which one may expect that, as little as their velocities would have to go on changing.
   const std::vector<std::int32_t>& doubtful() const { return doubtful_; }
 
@@ -63,14 +61,15 @@ class WallContacts {
   double gapOf(std::size_t i, int k) const;
   double overlapOf(std::size_t i, int k, const Eigen::Vector3d& velocity, double dt) const;
   bool flips(std::size_t i, int k, double overlap) const;
-  bool isDoubtful(std::size_t i, const LinearMotion& motion, const Eigen::Vector3d& change, double dt);
+  bool isDoubtful(std::size_t i, const Eigen::Vector3d& before, const Eigen::Vector3d& change, double dt);
+  bool isInDoubt(std::size_t i, const Eigen::Vector3d& velocity, double moved, double dt) const;
   void listFound();
-  bool updateContact(std::size_t i, int k, const Eigen::Vector3d& predicted, const Eigen::Vector3d& velocity,
+  bool updateContact(std::size_t i, int k, const Eigen::Vector3d& before, const Eigen::Vector3d& velocity,
                      double dt, BlockSystem& system, Vectors3& impulse);
-  bool updateBrake(std::size_t i, const Eigen::Vector3d& predicted, double error, double dt,
+  bool updateBrake(std::size_t i, const Eigen::Vector3d& before, double error, double dt,
                    Eigen::Vector3d& change, BlockSystem& system, Vectors3& impulse);
-  double roomOf(std::size_t i, const Eigen::Vector3d& predicted, double dt) const;
-  void setBrake(std::size_t i, double brake, const Eigen::Vector3d& predicted, BlockSystem& system,
+  double roomOf(std::size_t i, const Eigen::Vector3d& before, double dt) const;
+  void setBrake(std::size_t i, double brake, const Eigen::Vector3d& before, BlockSystem& system,
                 Vectors3& impulse);
 
   const NearWalls* walls_ = nullptr;  ///< of each bubble, the caller's
@@ -83,7 +82,7 @@ class WallContacts {
   std::vector<double> room_;
   Vectors3 seen_;                                 ///< change of a bubble's velocity as last looked at [m/s]
   std::vector<std::uint8_t> found_;               ///< by the last update()
-  std::vector<std::int32_t> changed_, doubtful_;  ///< bubbles of which it has found that
+  std::vector<std::int32_t> changed_, doubtful_;  ///< bubbles of which it or begin() has found that
 };
 
 }  // namespace spume::foam

@@ -1,9 +1,9 @@
 #include "foam/wall_limit.h"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 #include <vector>
+
+#include "foam/index_list.h"
 
 namespace spume::foam {
 namespace {
@@ -26,19 +26,8 @@ Eigen::Matrix3Xd placesOf(const BubbleStore& bubbles, const Rows& rows) {
 /// Depth of a bubble's centre below what is allowed [m]; positive if it is too deep.
 double excessDepth(double psi, double radius) { return -psi - kDeepestInSolid * radius; }
 
-/// Moves those of `rows` that are more than `tolerance` [r] too deep outwards, keeps them in `rows` and drops
-/// the others.
-void moveOut(const LiquidSampler& liquid, double tolerance, Rows& rows, BubbleStore& bubbles) {
-  Eigen::VectorXd psi(static_cast<Eigen::Index>(rows.size()));
-  liquid.psi(placesOf(bubbles, rows), psi);
-  Rows deep;
-  std::vector<double> excess;
-  for (Eigen::Index n = 0; n < psi.size(); ++n)
-    if (const double by = excessDepth(psi[n], bubbles.radius[rows[n]]);
-        by > tolerance * bubbles.radius[rows[n]])
-      deep.push_back(rows[n]), excess.push_back(by);
-  rows = std::move(deep);
-  if (rows.empty()) return;
+/// Moves `rows`, which are too deep, outwards and finds their psi anew.
+void moveOut(const LiquidSampler& liquid, const Rows& rows, BubbleStore& bubbles, Eigen::VectorXd& psi) {
   const Eigen::Matrix3Xd at = placesOf(bubbles, rows);
   Eigen::Matrix3Xd away(3, at.cols()), solid(3, at.cols());
   liquid.gradPsi(at, away);
@@ -46,21 +35,32 @@ void moveOut(const LiquidSampler& liquid, double tolerance, Rows& rows, BubbleSt
   for (Eigen::Index n = 0; n < at.cols(); ++n) {
     const std::size_t i = rows[n];
     const Eigen::Vector3d out = away.col(n).normalized();  // 0 stays 0: no way out is known
-    bubbles.position[i] += excess[n] * out;
+    bubbles.position[i] += excessDepth(psi[static_cast<Eigen::Index>(i)], bubbles.radius[i]) * out;
     const double inward = std::min(0.0, out.dot(bubbles.velocity[i] - solid.col(n)));
     bubbles.velocity[i] -= inward * out;
   }
+  Eigen::VectorXd there(at.cols());
+  liquid.psi(placesOf(bubbles, rows), there);
+  for (Eigen::Index n = 0; n < at.cols(); ++n) psi[static_cast<Eigen::Index>(rows[n])] = there[n];
 }
 
 }  // namespace
 
-std::size_t keepOutOfSolids(const LiquidSampler& liquid, BubbleStore& bubbles) {
-  Rows rows(bubbles.size());
-  std::iota(rows.begin(), rows.end(), std::size_t{0});
-  std::size_t moved = 0;
+std::size_t keepOutOfSolids(const LiquidSampler& liquid, BubbleStore& bubbles, Eigen::VectorXd& psi) {
+  psi.resize(static_cast<Eigen::Index>(bubbles.size()));
+  if (bubbles.size() == 0) return 0;
+  liquid.psi(bubbles.positions(), psi);
+  const auto isDeeper = [&](std::size_t i, double tolerance) {
+    const double r = bubbles.radius[i];
+    return excessDepth(psi[static_cast<Eigen::Index>(i)], r) > tolerance * r;
+  };
+  Rows rows;
+  listIndices(
+      bubbles.size(), [&](std::size_t i) { return isDeeper(i, 0); }, rows);
+  const std::size_t moved = rows.size();
   for (int round = 0; round < kRounds && !rows.empty(); ++round) {
-    moveOut(liquid, round == 0 ? 0 : kRoundOff, rows, bubbles);
-    if (round == 0) moved = rows.size();
+    moveOut(liquid, rows, bubbles, psi);
+    std::erase_if(rows, [&](std::size_t i) { return !isDeeper(i, kRoundOff); });
   }
   return moved;
 }

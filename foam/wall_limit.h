@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 
 #include "foam/bubble_store.h"
@@ -12,10 +13,10 @@ namespace spume::foam {
 inline constexpr double kDeepestInSolid = 0.1;
 
 /// Takes bubbles that ended a step deeper in a solid out to that depth, and from their velocity what goes
-/// further in. Returns how many there were.
+/// further in. Returns how many there were; `psi` becomes that of all bubbles where they then are [m].
 ///
 /// Deviation: wall contact is a spring on the walls within a bubble's reach. One that its neighbours throw at
 /// a wall from beyond, or that a fast solid runs over, would otherwise spend a step inside.
-std::size_t keepOutOfSolids(const LiquidSampler& liquid, BubbleStore& bubbles);
+std::size_t keepOutOfSolids(const LiquidSampler& liquid, BubbleStore& bubbles, Eigen::VectorXd& psi);
 
 }  // namespace spume::foam

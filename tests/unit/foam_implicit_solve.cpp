@@ -118,6 +118,18 @@ TEST(ImplicitSolve, SolvingAgainFollowsOwnBlocksThatChanged) {
   }
 }
 
+TEST(ImplicitSolve, BeginsWithWhatIsLeftWhereFewOfXAreNotZero) {
+  const BlockSystem a = randomSystem(3000, 1e4);
+  const Vectors3 b = randomVectors(a.size());
+  Vectors3 x(a.size(), Eigen::Vector3d::Zero());
+  ImplicitSolve whole, few;
+  EXPECT_DOUBLE_EQ(few.begin(a, b, x, {}), whole.begin(a, b, x));
+  EXPECT_EQ(few.left(), whole.left());
+  x[7] = {1, 2, 3}, x[8] = {0, 1, 0}, x[2999] = {-1, 0, 5};
+  EXPECT_DOUBLE_EQ(few.begin(a, b, x, {8, 7, 2999}), whole.begin(a, b, x));
+  EXPECT_EQ(few.left(), whole.left());
+}
+
 /// Bodies lighter and lighter beside what links them, down to what single precision would lose in plain
 /// coordinates: one of a pair on its own hangs by one link and is free to move across it.
 TEST(ImplicitSolve, FindsWhatLightBodiesDoAcrossStiffLinks) {

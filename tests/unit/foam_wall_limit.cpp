@@ -22,7 +22,8 @@ TEST(WallLimit, ABubbleThrownIntoTheFloorComesBackToItsEdge) {
   const double r = 0.01;
   BubbleStore bubbles;
   bubbles.add({{0.1, -0.5 * r, 0.2}, {0.3, -0.4, 0}, r});
-  EXPECT_EQ(keepOutOfSolids(floored(), bubbles), 1u);
+  Eigen::VectorXd psi;
+  EXPECT_EQ(keepOutOfSolids(floored(), bubbles, psi), 1u);
   EXPECT_NEAR(bubbles.position[0].y(), -kDeepestInSolid * r, kRoundOff);
   EXPECT_EQ(bubbles.position[0].x(), 0.1);
   EXPECT_NEAR((bubbles.velocity[0] - Eigen::Vector3d(0.3, 0, 0)).norm(), 0, kRoundOff);
@@ -31,7 +32,8 @@ TEST(WallLimit, ABubbleThrownIntoTheFloorComesBackToItsEdge) {
 TEST(WallLimit, OneThatComesOutKeepsItsVelocity) {
   BubbleStore bubbles;
   bubbles.add({{0, -0.005, 0}, {0, 0.4, 0}, 0.01});
-  keepOutOfSolids(floored(), bubbles);
+  Eigen::VectorXd psi;
+  keepOutOfSolids(floored(), bubbles, psi);
   EXPECT_EQ(bubbles.velocity[0], Eigen::Vector3d(0, 0.4, 0));
 }
 
@@ -39,9 +41,20 @@ TEST(WallLimit, BubblesOnTheFloorAndAwayFromItAreLeftAlone) {
   BubbleStore bubbles;
   bubbles.add({{0, -0.0005, 0}, {0, -1, 0}, 0.01});
   bubbles.add({{0, 0.3, 0}, {0, -1, 0}, 0.01});
-  EXPECT_EQ(keepOutOfSolids(floored(), bubbles), 0u);
+  Eigen::VectorXd psi;
+  EXPECT_EQ(keepOutOfSolids(floored(), bubbles, psi), 0u);
   EXPECT_EQ(bubbles.position[0].y(), -0.0005);
   EXPECT_EQ(bubbles.velocity[1].y(), -1);
+}
+
+TEST(WallLimit, TellsHowFarAllAreFromSolidsWhereTheyThenAre) {
+  BubbleStore bubbles;
+  for (const double height : {0.3, -0.005, -0.0005, 0.2}) bubbles.add({{0, height, 0}, {0, -1, 0}, 0.01});
+  Eigen::VectorXd psi, there(4);
+  EXPECT_EQ(keepOutOfSolids(floored(), bubbles, psi), 1u);
+  floored().psi(bubbles.positions(), there);
+  EXPECT_EQ(psi, there);
+  EXPECT_NEAR(psi[1], -kDeepestInSolid * 0.01, kRoundOff);
 }
 
 }  // namespace
