@@ -25,7 +25,7 @@ struct FoamSample {
   /// From a lattice slightly out of order: where bubbles begin in each other, what rounding changes grows
   /// hundredfold a step.
   void rise() {
-    constexpr int kAlong = 7, kSteps = 10;
+    constexpr int kAlong = 7, kSteps = 8;
     constexpr double kApart = 2.6e-3, kEdge = kAlong * kApart, kDt = 10e-3;  // [m], [m], [s]
     FoamParams params = makePreset(Preset::physical);
     params.solverTolerance = 1e-12, params.volumeMode = VolumeMode::newton, params.volumeTolerance = 1e-8;
