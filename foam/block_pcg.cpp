@@ -32,7 +32,8 @@ double sumOfProducts(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 }
 
 /// Sum over entries first .. last - 1 of coupling x known. The fourth number is not to be used. What a
-/// register holds beyond the last entry are those of other rows, and does not count.
+/// register holds beyond the last entry counts as 0; what is known of rows there is not read, as others may
+/// be writing it.
 inline Quad coupled(const SweptSystem::Couplings& a, std::int32_t first, std::int32_t last,
                     const Vector4f* known) {
   constexpr auto kStep = static_cast<std::int32_t>(kQuads);
@@ -40,7 +41,9 @@ inline Quad coupled(const SweptSystem::Couplings& a, std::int32_t first, std::in
   QuadLanes sum = {};
   for (std::int32_t e = first; e < last; e += kStep) {
     const QuadLanes coupling = firstQuads(loadQuads(&a.block[e]), last - e);
-    const QuadLanes of = gatherQuads(known, &a.other[e]);
+    const std::int32_t other[] = {a.other[e], a.other[e + (e + 1 < last)]};
+    static_assert(kStep <= 2);
+    const QuadLanes of = gatherQuads(known, other);
     sum += sumsOf(coupling * of) * coupling + fourthsOf(coupling) * of;
   }
   return joinQuads(sum);

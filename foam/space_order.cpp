@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "foam/cell_hash.h"
+#include "foam/hilbert_curve.h"
 #include "foam/parallel.h"
 #include "foam/radix_sort.h"
 
@@ -39,7 +40,7 @@ void sortInSpace(const std::vector<Eigen::Vector3d>& position, std::vector<std::
       code |=
           spreadCellBits(std::min(static_cast<std::int64_t>(cell[axis]), (std::int64_t{1} << kAxisBits) - 1))
           << axis;
-    keys[i] = {code, static_cast<std::int32_t>(i)};
+    keys[i] = {hilbertPlace(code, kAxisBits), static_cast<std::int32_t>(i)};
   });
   radixSort(keys, spare, position.size(), 3 * kAxisBits);
   forEachIndex(position.size(), [&](std::size_t k) { order[k] = keys[k].index; });
