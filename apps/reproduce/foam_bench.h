@@ -29,6 +29,13 @@ inline foam::StillPool deepPool(const foam::FoamParams& params) {
   return foam::StillPool(pool);
 }
 
+/// A pool without walls or bottom whose surface is at the height 0.
+inline foam::StillPool openPool(const foam::FoamParams& params) {
+  foam::StillPoolParams pool;
+  pool.gravity = params.gravity, pool.density = params.density;
+  return foam::StillPool(pool);
+}
+
 /// A dry, weightless world: no liquid anywhere near.
 inline foam::StillPool emptySpace() {
   foam::StillPoolParams pool;
