@@ -87,6 +87,7 @@ Session::Session(const SessionOptions& options)
   summary_.switchedOff = coupling::switchedOff(options.scene);
   if (!loaded) writeSummary(summary_.status);
   log_ = std::make_unique<Log>(folder_.log());
+  if (!lock_.warning().empty()) log_->say("warning: " + lock_.warning());
   if (loaded) {
     for (const std::string& warning : loaded->warnings) log_->say("warning: " + warning);
     if (!finished()) log_->say("going on from " + loaded->path);

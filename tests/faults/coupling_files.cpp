@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 
 #include "coupling/atomic_file.h"
 #include "coupling/bubble_cache.h"
+#include "coupling/folder_lock.h"
 #include "coupling/run_folder.h"
 #include "coupling/statistics.h"
 #include "tests/support/temporary_path.h"
@@ -26,6 +28,29 @@ class Folder {
  private:
   std::string path_;
 };
+
+TEST(FolderLock, LetsOneRunIn) {
+  const Folder folder;
+  const FolderLock lock(folder / "");
+  EXPECT_EQ(lock.warning(), "");
+  EXPECT_THROW(FolderLock(folder / ""), FileError);
+}
+
+TEST(FolderLock, WarnsWhereTheFileSystemKnowsNoLocks) {
+  const Folder folder;
+  const FolderLock::Locker noLocks = [](int, int) {
+    errno = ENOLCK;
+    return -1;
+  };
+  const FolderLock lock(folder / "run", noLocks);  // there is no such folder
+  for (const char* part : {"run: cannot be locked: No such file or directory", "second run"})
+    EXPECT_NE(lock.warning().find(part), std::string::npos) << lock.warning();
+  fs::create_directories(folder / "run");
+  const FolderLock other(folder / "run", noLocks);
+  EXPECT_NE(other.warning().find("run: cannot be locked: No locks available; a second run"),
+            std::string::npos)
+      << other.warning();
+}
 
 TEST(AtomicFile, ReplacesWholeFiles) {
   const Folder folder;
