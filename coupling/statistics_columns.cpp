@@ -14,6 +14,17 @@ std::string cellOf(std::uint64_t value) { return std::to_string(value); }
 std::string cellOf(int value) { return std::to_string(value); }
 std::string cellOf(const char* word) { return word; }
 
+template <typename Report>
+using Columns = std::vector<Column<Report>>;
+
+/// One after the other.
+template <typename Report>
+Columns<Report> joined(const std::vector<Columns<Report>>& sections) {
+  Columns<Report> all;
+  for (const Columns<Report>& section : sections) all.insert(all.end(), section.begin(), section.end());
+  return all;
+}
+
 template <typename Report, typename Value>
 Column<Report> column(std::string name, std::string unit, std::string meaning, Value value) {
   return {{std::move(name), std::move(unit), std::move(meaning)},
@@ -71,17 +82,22 @@ auto last(Value value) {
   };
 }
 
-}  // namespace
-
-const std::vector<Column<StepReport>>& columnsOfSteps() {
+/// Of the step itself.
+Columns<StepReport> stepItself() {
   using R = StepReport;
-  static const std::vector<Column<R>> kColumns{
+  return {
       step("step", "-", "number of the step, from 1", [](const R& r) { return r.step; }),
       step("time", "s", "at its end", [](const R& r) { return r.time; }),
       step("dt", "s", "its length", [](const R& r) { return r.dt; }),
       step("foam_substeps", "-", "steps the foam split it into", [](const R& r) { return r.foamSubSteps; }),
       step("halvings", "-", "times it was halved because a module failed",
-           [](const R& r) { return r.halvings; }),
+           [](const R& r) { return r.halvings; })};
+}
+
+/// Of the liquid, its bodies and drops.
+Columns<StepReport> liquidOfStep() {
+  using R = StepReport;
+  return {
       step("liquid_substeps", "-", "sub-steps of the liquid", [](const R& r) { return r.liquid.subSteps; }),
       step("cfl", "-", "largest of its sub-steps", [](const R& r) { return r.liquid.cfl; }),
       step("max_speed", "m/s", "of the liquid", [](const R& r) { return r.liquid.maxSpeed; }),
@@ -109,7 +125,13 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("kinetic_energy", "J", "of the liquid", [](const R& r) { return r.liquid.kineticEnergy; }),
       step("potential_energy", "J", "of the liquid", [](const R& r) { return r.liquid.potentialEnergy; }),
       step("positive_markers", "-", "in the air", [](const R& r) { return r.liquid.positiveMarkers; }),
-      step("negative_markers", "-", "in the liquid", [](const R& r) { return r.liquid.negativeMarkers; }),
+      step("negative_markers", "-", "in the liquid", [](const R& r) { return r.liquid.negativeMarkers; })};
+}
+
+/// Of the bubbles and their solver.
+Columns<StepReport> bubblesOfStep() {
+  using R = StepReport;
+  return {
       step("bubbles", "-", "at the end", [](const R& r) { return r.foam.bubbles; }),
       step("bubbles_liquid", "-", "under the surface", [](const R& r) { return r.foam.liquid; }),
       step("bubbles_surface", "-", "at the surface", [](const R& r) { return r.foam.surface; }),
@@ -133,7 +155,13 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("bubble_kinetic_energy", "J", "of the bubbles", [](const R& r) { return r.foam.kineticEnergy; }),
       step("volume_error_median", "-", "|V - V0|/V0 of unflagged bubbles",
            [](const R& r) { return r.foam.volumeErrorMedian; }),
-      step("volume_error_max", "-", "the worst of them", [](const R& r) { return r.foam.volumeErrorMax; }),
+      step("volume_error_max", "-", "the worst of them", [](const R& r) { return r.foam.volumeErrorMax; })};
+}
+
+/// The ledger of the gas.
+Columns<StepReport> gasOfStep() {
+  using R = StepReport;
+  return {
       step("gas_born_markers", "m^3", "from escaped markers, since the start",
            [](const R& r) { return r.gas.bornMarkers; }),
       step("gas_born_pockets", "m^3", "from collapsed pockets", [](const R& r) { return r.gas.bornPockets; }),
@@ -155,18 +183,23 @@ const std::vector<Column<StepReport>>& columnsOfSteps() {
       step("gas_in_solution", "m^3", "at the pressure of the air, where it is followed",
            [](const R& r) { return r.gasInSolution; }),
       step("gas_imbalance", "m^3", "what the ledger does not explain",
-           [](const R& r) { return r.gas.imbalance(); }),
-      step("seconds_liquid", "s", "wall time", [](const R& r) { return r.secondsLiquid; }),
-      step("seconds_entrainment", "s", "wall time", [](const R& r) { return r.secondsEntrainment; }),
-      step("seconds_supply", "s", "wall time of sources, nucleation, growth and removal",
-           [](const R& r) { return r.secondsSupply; }),
-      step("seconds_foam", "s", "wall time", [](const R& r) { return r.secondsFoam; })};
-  return kColumns;
+           [](const R& r) { return r.gas.imbalance(); })};
 }
 
-const std::vector<Column<FrameReport>>& columnsOfFrames() {
+/// Where the wall time went.
+Columns<StepReport> timesOfStep() {
+  using R = StepReport;
+  return {step("seconds_liquid", "s", "wall time", [](const R& r) { return r.secondsLiquid; }),
+          step("seconds_entrainment", "s", "wall time", [](const R& r) { return r.secondsEntrainment; }),
+          step("seconds_supply", "s", "wall time of sources, nucleation, growth and removal",
+               [](const R& r) { return r.secondsSupply; }),
+          step("seconds_foam", "s", "wall time", [](const R& r) { return r.secondsFoam; })};
+}
+
+/// Of the frame itself, and of its steps.
+Columns<FrameReport> frameItself() {
   using S = StepReport;
-  static const std::vector<Column<FrameReport>> kColumns{
+  return {
       frame("frame", "-", "number of the frame, from 1", [](const FrameReport& f) { return f.frame; }),
       frame("time", "s", "of the frame", [](const FrameReport& f) { return f.time; }),
       frame("steps", "-", "shared steps",
@@ -175,7 +208,13 @@ const std::vector<Column<FrameReport>>& columnsOfFrames() {
       frame("seconds_liquid", "s", "wall time", sum([](const S& s) { return s.secondsLiquid; })),
       frame("seconds_entrainment", "s", "wall time", sum([](const S& s) { return s.secondsEntrainment; })),
       frame("seconds_foam", "s", "wall time", sum([](const S& s) { return s.secondsFoam; })),
-      frame("halvings", "-", "of steps that failed", sum([](const S& s) { return s.halvings; })),
+      frame("halvings", "-", "of steps that failed", sum([](const S& s) { return s.halvings; }))};
+}
+
+/// Of the liquid.
+Columns<FrameReport> liquidOfFrame() {
+  using S = StepReport;
+  return {
       frame("liquid_substeps", "-", "of the liquid", sum([](const S& s) { return s.liquid.subSteps; })),
       frame("cfl", "-", "largest", most([](const S& s) { return s.liquid.cfl; })),
       frame("max_speed", "m/s", "largest of the liquid", most([](const S& s) { return s.liquid.maxSpeed; })),
@@ -189,27 +228,44 @@ const std::vector<Column<FrameReport>>& columnsOfFrames() {
       frame("poured", "m^3", "since the start", last([](const S& s) { return s.poured; })),
       frame("drained", "m^3", "since the start", last([](const S& s) { return s.drained; })),
       frame("drops", "-", "in flight at the end", last([](const S& s) { return s.liquid.drops; })),
-      frame("drop_volume", "m^3", "in them", last([](const S& s) { return s.liquid.dropVolume; })),
-      frame("bubbles", "-", "at the end", last([](const S& s) { return s.foam.bubbles; })),
-      frame("bubbles_liquid", "-", "under the surface", last([](const S& s) { return s.foam.liquid; })),
-      frame("bubbles_surface", "-", "at the surface", last([](const S& s) { return s.foam.surface; })),
-      frame("bubbles_air", "-", "above it", last([](const S& s) { return s.foam.air; })),
-      frame("births", "-", "in the frame", sum([](const S& s) { return s.births; })),
-      frame("source_unplaced", "-", "bubbles of sources that found no place, since the start",
-            last([](const S& s) { return s.sourceUnplaced; })),
-      frame("bursts", "-", "in the frame", sum([](const S& s) { return s.bursts; })),
-      frame("contacts", "-", "films at the end", last([](const S& s) { return s.foam.contacts; })),
-      frame("hidden", "-", "bubbles swallowed by others, at the end",
-            last([](const S& s) { return s.foam.hidden; })),
-      frame("clamped", "-", "bubbles at the limit of their radius, at the end",
-            last([](const S& s) { return s.foam.clamped; })),
-      frame("foam_iterations", "-", "summed", sum([](const S& s) { return s.foam.solverIterations; })),
-      frame("volume_error_median", "-", "of the bubbles' cells",
-            last([](const S& s) { return s.foam.volumeErrorMedian; })),
-      frame("volume_error_max", "-", "of the bubbles' cells",
-            last([](const S& s) { return s.foam.volumeErrorMax; })),
-      frame("gas_in_bubbles", "m^3", "at the end", last([](const S& s) { return s.gas.inBubbles; })),
-      frame("gas_imbalance", "m^3", "of the ledger", last([](const S& s) { return s.gas.imbalance(); }))};
+      frame("drop_volume", "m^3", "in them", last([](const S& s) { return s.liquid.dropVolume; }))};
+}
+
+/// Of the bubbles and their gas.
+Columns<FrameReport> bubblesOfFrame() {
+  using S = StepReport;
+  return {frame("bubbles", "-", "at the end", last([](const S& s) { return s.foam.bubbles; })),
+          frame("bubbles_liquid", "-", "under the surface", last([](const S& s) { return s.foam.liquid; })),
+          frame("bubbles_surface", "-", "at the surface", last([](const S& s) { return s.foam.surface; })),
+          frame("bubbles_air", "-", "above it", last([](const S& s) { return s.foam.air; })),
+          frame("births", "-", "in the frame", sum([](const S& s) { return s.births; })),
+          frame("source_unplaced", "-", "bubbles of sources that found no place, since the start",
+                last([](const S& s) { return s.sourceUnplaced; })),
+          frame("bursts", "-", "in the frame", sum([](const S& s) { return s.bursts; })),
+          frame("contacts", "-", "films at the end", last([](const S& s) { return s.foam.contacts; })),
+          frame("hidden", "-", "bubbles swallowed by others, at the end",
+                last([](const S& s) { return s.foam.hidden; })),
+          frame("clamped", "-", "bubbles at the limit of their radius, at the end",
+                last([](const S& s) { return s.foam.clamped; })),
+          frame("foam_iterations", "-", "summed", sum([](const S& s) { return s.foam.solverIterations; })),
+          frame("volume_error_median", "-", "of the bubbles' cells",
+                last([](const S& s) { return s.foam.volumeErrorMedian; })),
+          frame("volume_error_max", "-", "of the bubbles' cells",
+                last([](const S& s) { return s.foam.volumeErrorMax; })),
+          frame("gas_in_bubbles", "m^3", "at the end", last([](const S& s) { return s.gas.inBubbles; })),
+          frame("gas_imbalance", "m^3", "of the ledger", last([](const S& s) { return s.gas.imbalance(); }))};
+}
+
+}  // namespace
+
+const std::vector<Column<StepReport>>& columnsOfSteps() {
+  static const auto kColumns =
+      joined<StepReport>({stepItself(), liquidOfStep(), bubblesOfStep(), gasOfStep(), timesOfStep()});
+  return kColumns;
+}
+
+const std::vector<Column<FrameReport>>& columnsOfFrames() {
+  static const auto kColumns = joined<FrameReport>({frameItself(), liquidOfFrame(), bubblesOfFrame()});
   return kColumns;
 }
 
