@@ -1,6 +1,6 @@
 #include "coupling/domain_box.h"
 
-#include "coupling/errors.h"
+#include "coupling/object_label.h"
 #include "coupling/scene_builder.h"
 #include "coupling/shapes.h"
 #include "coupling/toml_slot.h"
@@ -17,10 +17,12 @@ bool DomainBox::reaches(const Eigen::Vector3d& x, double radius) const {
   return (x.array() > lower.array() - radius).all() && (x.array() < upper.array() + radius).all();
 }
 
-void DomainBox::requireOverlap(const ShapeSpec& shape, const std::string& object) const {
+void DomainBox::requireOverlap(const ShapeSpec& shape) const {
   const auto [low, high] = bounds(shape);
-  if ((low.array() >= upper.array()).any() || (high.array() <= lower.array()).any())
-    throw SceneError(object + ": lies outside " + words() + "; move it or remove it");
+  if ((low.array() < upper.array()).all() && (high.array() > lower.array()).all()) return;
+  const auto& [key, value] = placeKey(shape);
+  throw KeyFault(key, value + ": the " + nameOf(shape.kind) + " from " + exactText(low) + " to " +
+                          exactText(high) + " m lies outside " + words() + "; move it or remove it");
 }
 
 std::string DomainBox::words() const {

@@ -20,8 +20,8 @@ struct DomainBox {
   bool holds(const Eigen::Vector3d& x) const;
   /// Whether a ball of `radius` [m] round x [m] reaches into it, taken as a box along its corners.
   bool reaches(const Eigen::Vector3d& x, double radius) const;
-  /// Throws SceneError, naming `object`, where the shape and the domain have no volume in common.
-  void requireOverlap(const ShapeSpec& shape, const std::string& object) const;
+  /// Throws KeyFault where the shape and the domain have no volume in common.
+  void requireOverlap(const ShapeSpec& shape) const;
   /// "the domain from [0, 0, 0] to [1, 1, 1] m", for messages.
   std::string words() const;
 };

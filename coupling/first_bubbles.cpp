@@ -16,7 +16,8 @@ constexpr std::uint64_t kLargestId = std::uint64_t{1} << 52;
 FirstBubbles::FirstBubbles(const Scene& scene) : scene_(scene), tables_(scene.bubbles.size()) {
   for (std::size_t item = 0; item < tables_.size(); ++item) {
     const std::string& file = scene.bubbles[item].file;
-    if (!file.empty()) checkItem("bubbles", item, [&] { tables_[item] = readBubbleTable(file); });
+    const auto read = [&] { tables_[item] = readBubbleTable(file); };
+    if (!file.empty()) checkItem("bubbles", item, read, objectLabel("bubbles", "", item));
     for (std::size_t row = 0; hasIds(item) && row < sizeOf(item); ++row)
       given_.push_back({tables_[item].id[row], item, row});
   }
@@ -42,32 +43,45 @@ foam::NewBubble FirstBubbles::bubble(std::size_t item, std::size_t row) const {
           table.wetness.empty() ? spec.bubble.wetness : table.wetness[row]};
 }
 
+/// Of a bubble of a file.
 std::string FirstBubbles::placeOf(std::size_t item, std::size_t row) const {
-  const std::string& file = scene_.bubbles[item].file;
-  return file.empty() ? "bubbles " + std::to_string(item) : tables_[item].placeOf(file, row);
+  return tables_[item].placeOf(scene_.bubbles[item].file, row);
+}
+
+void FirstBubbles::refuse(std::size_t item, std::size_t row, const std::string& key,
+                          const std::string& words) const {
+  if (scene_.bubbles[item].file.empty()) throw KeyFault(key, words);
+  throw KeyFault("file", placeOf(item, row) + ": " + key + " ", words);
 }
 
 /// Within a file they are checked already.
 void FirstBubbles::checkIds() const {
-  for (std::size_t k = 0; k < given_.size(); ++k)
-    checkItem("bubbles", given_[k].item, [&] {
-      const auto& [id, item, row] = given_[k];
+  for (std::size_t k = 0; k < given_.size(); ++k) {
+    const auto& [id, item, row] = given_[k];
+    const auto check = [&, id = id, item = item, row = row] {
       if (id > kLargestId)
-        throw SceneError(placeOf(item, row) + ": id " + std::to_string(id) + "; a scene may give 0 to " +
-                         std::to_string(kLargestId) + ", for the caches of a run to hold it exactly");
+        refuse(item, row, "id",
+               "= " + std::to_string(id) + "; a scene may give 0 to " + std::to_string(kLargestId) +
+                   ", for the caches of a run to hold it exactly");
       if (k > 0 && given_[k - 1].id == id)
-        throw SceneError(placeOf(item, row) + ": id " + std::to_string(id) + " is already that of " +
-                         placeOf(given_[k - 1].item, given_[k - 1].row) +
-                         "; every bubble of a scene needs its own");
-    });
+        refuse(item, row, "id",
+               "= " + std::to_string(id) + " is already that of " +
+                   placeOf(given_[k - 1].item, given_[k - 1].row) +
+                   "; every bubble of a scene needs its own");
+    };
+    checkItem("bubbles", item, check, objectLabel("bubbles", "", item));
+  }
 }
 
-void FirstBubbles::forEach(const std::function<void(const foam::NewBubble&, const Place&)>& visit) const {
-  for (std::size_t item = 0; item < tables_.size(); ++item)
-    checkItem("bubbles", item, [&] {
+void FirstBubbles::forEach(const std::function<void(const foam::NewBubble&, const Refuse&)>& visit) const {
+  for (std::size_t item = 0; item < tables_.size(); ++item) {
+    const auto visitAll = [&] {
       for (std::size_t row = 0; row < sizeOf(item); ++row)
-        visit(bubble(item, row), [&] { return placeOf(item, row); });
-    });
+        visit(bubble(item, row),
+              [&](const std::string& key, const std::string& words) { refuse(item, row, key, words); });
+    };
+    checkItem("bubbles", item, visitAll, objectLabel("bubbles", "", item));
+  }
 }
 
 foam::BubbleStore FirstBubbles::store() const {

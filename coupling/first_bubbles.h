@@ -20,10 +20,10 @@ class FirstBubbles {
   /// must outlive the object.
   explicit FirstBubbles(const Scene& scene);
 
-  /// Calls visit(bubble, place) for each in the order of the scene; place() says where it stands. What visit
-  /// throws becomes a fault of the item.
-  using Place = std::function<std::string()>;
-  void forEach(const std::function<void(const foam::NewBubble&, const Place&)>& visit) const;
+  /// Calls visit(bubble, refuse) for each in the order of the scene. refuse(key, words) throws a fault of the
+  /// bubble's "position", "velocity" or "radius", at that key or at its line of a file.
+  using Refuse = std::function<void(const std::string& key, const std::string& words)>;
+  void forEach(const std::function<void(const foam::NewBubble&, const Refuse&)>& visit) const;
 
   /// Ordered by id: bubbles of files keep the ids given there; all others are numbered in the order of the
   /// scene, on from the largest given one, or from 0.
@@ -37,6 +37,8 @@ class FirstBubbles {
   bool hasIds(std::size_t item) const;
   foam::NewBubble bubble(std::size_t item, std::size_t row) const;
   std::string placeOf(std::size_t item, std::size_t row) const;
+  [[noreturn]] void refuse(std::size_t item, std::size_t row, const std::string& key,
+                           const std::string& words) const;
   void checkIds() const;
 
   /// A bubble whose file gives its id.

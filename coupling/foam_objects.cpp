@@ -28,44 +28,43 @@ std::string rounded(const Eigen::Vector3d& v) {
 void checkBubbles(const Scene& scene, const DomainBox& domain, const SignedDistance& psi) {
   const double widest = domain.size().minCoeff();
   const FirstBubbles all(scene);
-  all.forEach([&](const foam::NewBubble& bubble, const auto& place) {
+  all.forEach([&](const foam::NewBubble& bubble, const auto& refuse) {
+    const auto place = [&] { return "= " + exactText(bubble.position) + " m"; };
+    const auto radius = [&] { return "= " + exactText(bubble.radius) + " m"; };
     if (!domain.holds(bubble.position))
-      throw SceneError(place() + ": position " + exactText(bubble.position) + " lies outside " +
-                       domain.words() + "; move the bubble or the domain");
+      refuse("position", place() + " lies outside " + domain.words() + "; move the bubble or the domain");
     if (!(bubble.velocity.cwiseAbs().maxCoeff() <= kFastest))
-      throw SceneError(place() + ": velocity " + exactText(bubble.velocity) + " m/s; each allowed: " +
-                       exactText(-kFastest) + " to " + exactText(kFastest) + " [m/s]");
+      refuse("velocity", "= " + exactText(bubble.velocity) + " m/s; each allowed: " + exactText(-kFastest) +
+                             " to " + exactText(kFastest) + " [m/s]");
     if (bubble.radius < kSmallest)
-      throw SceneError(place() + ": radius " + exactText(bubble.radius) +
-                       " m; allowed: " + exactText(kSmallest) + " m or more");
+      refuse("radius", radius() + "; allowed: " + exactText(kSmallest) + " m or more");
     if (2 * bubble.radius > widest)
-      throw SceneError(place() + ": radius " + exactText(bubble.radius) +
-                       " m: the bubble is larger than the domain; at most " + exactText(widest / 2) + " m");
+      refuse("radius",
+             radius() + ": the bubble is larger than the domain; at most " + exactText(widest / 2) + " m");
     if (psi(bubble.position) <= 0)
-      throw SceneError(place() + ": position " + exactText(bubble.position) +
-                       " is inside a solid; move the bubble or the solid");
+      refuse("position", place() + " is inside a solid; move the bubble or the solid");
   });
 }
 
-void checkRegion(const ShapeSpec& shape, const DomainBox& domain, const std::string& object) {
-  const std::string problem = defect(shape);
-  if (!problem.empty()) throw SceneError(object + " (" + nameOf(shape.kind) + "): " + problem);
-  domain.requireOverlap(shape, object);
+void checkRegion(const ShapeSpec& shape, const DomainBox& domain) {
+  requireUsable(shape);
+  domain.requireOverlap(shape);
 }
 
 /// A gap may be narrower than a bubble, which it squeezes; a domain none of whose edges it fits into is a
 /// slip of the unit.
-void checkSource(const BubbleSourceSpec& source, const DomainBox& domain, const SignedDistance& psi,
-                 const std::string& object) {
-  checkRegion(source.shape, domain, object);
+void checkSource(const BubbleSourceSpec& source, const DomainBox& domain, const SignedDistance& psi) {
+  checkRegion(source.shape, domain);
   const double longest = domain.size().maxCoeff(), most = source.radius.most;
   if (2 * most > longest)
-    throw SceneError(object + ": max_radius = " + exactText(most) +
-                     " m: such a bubble is larger than the domain; at most " + exactText(longest / 2) + " m");
+    throw KeyFault("max_radius", "= " + exactText(most) +
+                                     " m: such a bubble is larger than the domain; at most " +
+                                     exactText(longest / 2) + " m");
   if (roomShare(source.shape, domain, psi) == 0) {
     const auto [lower, upper] = bounds(source.shape);
-    throw SceneError(object + ": all of it is inside a solid, around " + rounded((lower + upper) / 2) +
-                     " m; move the source or the solid");
+    const auto& [key, value] = placeKey(source.shape);
+    throw KeyFault(key, value + ": all of the source is inside a solid, around " +
+                            rounded((lower + upper) / 2) + " m; move the source or the solid");
   }
 }
 
@@ -114,15 +113,13 @@ void checkFoamObjects(const Scene& scene) {
   const SignedDistance psi = solidDistance(scene);
   checkBubbles(scene, domain, psi);
   for (std::size_t i = 0; i < scene.bubbleSources.size(); ++i)
-    checkItem("bubble_source", i, [&] {
-      checkSource(scene.bubbleSources[i], domain, psi,
-                  objectLabel("bubble_source", scene.bubbleSources[i].name, i));
-    });
+    checkItem(
+        "bubble_source", i, [&] { checkSource(scene.bubbleSources[i], domain, psi); },
+        objectLabel("bubble_source", scene.bubbleSources[i].name, i));
   for (std::size_t i = 0; i < scene.bubbleKills.size(); ++i)
-    checkItem("bubble_kill", i, [&] {
-      checkRegion(scene.bubbleKills[i].shape, domain,
-                  objectLabel("bubble_kill", scene.bubbleKills[i].name, i));
-    });
+    checkItem(
+        "bubble_kill", i, [&] { checkRegion(scene.bubbleKills[i].shape, domain); },
+        objectLabel("bubble_kill", scene.bubbleKills[i].name, i));
 }
 
 }  // namespace spume::coupling

@@ -15,18 +15,20 @@ std::optional<Conflict> radiusConflict(const std::string& table, const foam::Rad
       ": min_radius " + exactText(radius.least) + ", max_radius " + exactText(radius.most) + " [m]";
   if (radius.least > radius.most)
     return Conflict{table + "min_radius", "= " + exactText(radius.least) + " exceeds " + table +
-                                              "max_radius = " + exactText(radius.most) + " [m]"};
+                                              "max_radius = " + exactText(radius.most) +
+                                              " [m]; lower the one or raise the other"};
   const bool medianCounts = radius.law == foam::RadiusLaw::lognormal;
   if (medianCounts && (radius.median < radius.least || radius.median > radius.most))
-    return Conflict{table + "median_radius", "= " + exactText(radius.median) + " lies outside the cut" + cut};
+    return Conflict{table + "median_radius",
+                    "= " + exactText(radius.median) + " lies outside the cut" + cut + "; move it or them"};
   return std::nullopt;
 }
 
 template <typename Object>
 std::optional<Conflict> timeConflict(const std::string& table, const Object& object) {
   if (object.start <= object.stop) return std::nullopt;
-  return Conflict{table + "start", "= " + exactText(object.start) + " exceeds " + table +
-                                       "stop = " + exactText(object.stop) + " [s]"};
+  return Conflict{table + "start", "= " + exactText(object.start) + " exceeds " + table + "stop = " +
+                                       exactText(object.stop) + " [s]; lower the one or raise the other"};
 }
 
 std::optional<Conflict> solidConflict(const std::string& table, const std::string& name, const Scene& scene) {

@@ -30,70 +30,62 @@ std::vector<Eigen::Vector3d> outletPoints(const InflowSpec& inflow) {
   return points;
 }
 
-void checkName(const std::string& name, const std::string& object, std::set<std::string>& names) {
+void checkName(const std::string& name, std::set<std::string>& names) {
   if (!name.empty() && !names.insert(name).second)
-    throw SceneError(object + ": another object has the same name; give each its own");
+    throw KeyFault("name", "= " + quoted(name) + " is that of another object too; give each its own");
 }
 
-void checkShape(const ShapeSpec& shape, const std::string& object) {
-  const std::string problem = defect(shape);
-  if (!problem.empty()) throw SceneError(object + " (" + nameOf(shape.kind) + "): " + problem);
+void checkShape(const Scene& scene, const ShapeSpec& shape) {
+  requireUsable(shape);
+  DomainBox(scene).requireOverlap(shape);
 }
 
-void checkInDomain(const Scene& scene, const ShapeSpec& shape, const std::string& object) {
-  DomainBox(scene).requireOverlap(shape, object);
-}
-
-void checkSolid(const Scene& scene, const SolidSpec& solid, const std::string& object) {
-  checkShape(solid.shape, object);
+void checkSolid(const Scene& scene, const SolidSpec& solid) {
+  requireUsable(solid.shape);
   if (!(solid.motion.rotationAxis.norm() > 0))
-    throw SceneError(object + ": rotation_axis must not be the zero vector");
+    throw KeyFault("rotation_axis", "= [0, 0, 0] has no direction; [0, 1, 0] points upwards");
   const Pose pose = poseAt(solid.motion, 0);
   const bool placed = pose.rotation.isIdentity() && pose.offset.isZero();
-  if (placed && !moves(solid.motion)) checkInDomain(scene, solid.shape, object);
+  if (placed && !moves(solid.motion)) DomainBox(scene).requireOverlap(solid.shape);
 }
 
-void checkLiquidBody(const Scene& scene, const LiquidBodySpec& body, const std::string& object) {
-  if (body.vessel.empty()) {
-    checkShape(body.shape, object);
-    return checkInDomain(scene, body.shape, object);
-  }
+void checkLiquidBody(const Scene& scene, const LiquidBodySpec& body) {
+  if (body.vessel.empty()) return checkShape(scene, body.shape);
   const SolidSpec* vessel = vesselOf(scene, body);
   if (!vessel)
-    throw SceneError(object + ": vessel = \"" + body.vessel +
-                     "\" is not the name of a [[solid]] of shape \"vessel\"");
+    throw KeyFault("vessel", "= " + quoted(body.vessel) +
+                                 " is not the name of a [[solid]] of shape \"vessel\"; give one that name");
   if (!(body.depth > 0 && body.depth <= vessel->shape.innerHeight))
-    throw SceneError(object + ": depth " + exactText(body.depth) + " m does not fit the vessel '" +
-                     body.vessel + "'; allowed: more than 0, up to its inner_height of " +
-                     exactText(vessel->shape.innerHeight) + " m");
+    throw KeyFault("depth", "= " + exactText(body.depth) + " m does not fit the vessel '" + body.vessel +
+                                "'; allowed: more than 0, up to its inner_height of " +
+                                exactText(vessel->shape.innerHeight) + " m");
 }
 
-void checkInflow(const Scene& scene, const InflowSpec& inflow, const std::string& object,
-                 const SignedDistance& psi) {
+void checkInflow(const Scene& scene, const InflowSpec& inflow, const SignedDistance& psi) {
   const DomainBox domain(scene);
   const double dx = scene.dx();
+  const std::string centre = "= " + exactText(inflow.centre) + " m";
   if (inflow.radius < kLeastOutletRadius * dx)
-    throw SceneError(object + ": radius " + exactText(inflow.radius) + " m is too small for cells of " +
-                     exactText(dx) + " m; at least " + exactText(kLeastOutletRadius * dx) +
-                     " m, or a finer domain.resolution");
+    throw KeyFault("radius", "= " + exactText(inflow.radius) + " m is too small for cells of " +
+                                 exactText(dx) + " m; at least " + exactText(kLeastOutletRadius * dx) +
+                                 " m, or a finer domain.resolution");
   for (const Eigen::Vector3d& point : outletPoints(inflow)) {
     if (!domain.holds(point))
-      throw SceneError(object + ": its outlet leaves " + domain.words() + " at " + exactText(point) +
-                       "; move the centre or shrink the radius");
+      throw KeyFault("centre", centre + ": its outlet leaves " + domain.words() + " at " + exactText(point) +
+                                   " m; move the centre or shrink the radius");
     if (psi(point) <= 0)
-      throw SceneError(object + ": its outlet is inside a solid at " + exactText(point) +
-                       "; move the inflow or the solid");
+      throw KeyFault("centre", centre + ": its outlet is inside a solid at " + exactText(point) +
+                                   " m; move the inflow or the solid");
   }
   const Eigen::Vector3d back = inflow.centre - kRequiredCells * dx * inflow.direction.normalized();
   if (!domain.holds(back))
-    throw SceneError(
-        object + ": the nozzle needs " + exactText(kRequiredCells * dx) +
-        " m behind its outlet inside the domain; move the centre along its direction by at least that");
+    throw KeyFault("centre", centre + ": the nozzle needs " + exactText(kRequiredCells * dx) +
+                                 " m behind its outlet inside the domain; move the centre along its "
+                                 "direction by at least that");
 }
 
-void checkOutflow(const Scene& scene, const OutflowSpec& outflow, const std::string& object) {
-  checkShape(outflow.shape, object);
-  checkInDomain(scene, outflow.shape, object);
+void checkOutflow(const Scene& scene, const OutflowSpec& outflow) {
+  checkShape(scene, outflow.shape);
   const fluid::GridSpec grid = gridOf(scene);
   const int fewest = outflow.mode == DrainMode::free ? fluid::kFewestFreeCells : 1;
   int cells = 0;
@@ -101,19 +93,18 @@ void checkOutflow(const Scene& scene, const OutflowSpec& outflow, const std::str
     for (int j = 0; j < grid.cells.y(); ++j)
       for (int k = 0; k < grid.cells.z(); ++k)
         cells += signedDistance(outflow.shape, grid.cellCentre(i, j, k)) < 0;
+  const auto& [key, value] = sizeKey(outflow.shape);
   if (cells < fewest)
-    throw SceneError(object + ": holds " + std::to_string(cells) + " cell centres, at least " +
-                     std::to_string(fewest) + " are needed; make it larger or raise domain.resolution");
+    throw KeyFault(key, value + ": the outflow holds " + std::to_string(cells) + " centres of cells of " +
+                            exactText(grid.dx) + " m, at least " + std::to_string(fewest) +
+                            " are needed; make it larger or raise domain.resolution");
 }
 
-void checkProbe(const Scene& scene, const ProbeSpec& probe, const std::string& object) {
-  if (probe.kind == ProbeKind::volume) {
-    checkShape(probe.shape, object);
-    checkInDomain(scene, probe.shape, object);
-  } else if (!DomainBox(scene).holds(probe.position)) {
-    throw SceneError(object + ": position " + exactText(probe.position) + " lies outside " +
-                     DomainBox(scene).words());
-  }
+void checkProbe(const Scene& scene, const ProbeSpec& probe) {
+  if (probe.kind == ProbeKind::volume) return checkShape(scene, probe.shape);
+  if (!DomainBox(scene).holds(probe.position))
+    throw KeyFault("position", "= " + exactText(probe.position) + " m lies outside " +
+                                   DomainBox(scene).words() + "; move the probe or the domain");
 }
 
 }  // namespace
@@ -122,20 +113,18 @@ void checkObjects(const Scene& scene) {
   std::set<std::string> names;
   const auto checkEach = [&](const std::string& table, const auto& objects, const auto& check) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
-      const std::string object = objectLabel(table, objects[i].name, i);
-      checkItem(table, i, [&] {
-        checkName(objects[i].name, object, names);
-        check(scene, objects[i], object);
-      });
+      const auto checkOne = [&] {
+        checkName(objects[i].name, names);
+        check(scene, objects[i]);
+      };
+      checkItem(table, i, checkOne, objectLabel(table, objects[i].name, i));
     }
   };
   checkEach("solid", scene.solids, checkSolid);
   const SignedDistance psi = solidDistance(scene);
   checkEach("liquid_body", scene.liquidBodies, checkLiquidBody);
   checkEach("inflow", scene.inflows,
-            [&](const Scene& s, const InflowSpec& inflow, const std::string& object) {
-              checkInflow(s, inflow, object, psi);
-            });
+            [&](const Scene& s, const InflowSpec& inflow) { checkInflow(s, inflow, psi); });
   checkEach("outflow", scene.outflows, checkOutflow);
   checkEach("probe", scene.probes, checkProbe);
   checkFoamObjects(scene);

@@ -96,6 +96,7 @@ std::string SceneDocument::place(const std::string& key, const toml::source_regi
 std::string SceneDocument::place(const std::string& key) const {
   const toml::node* node = &root_;
   toml::source_region source{};
+  std::string found;  // as much of the key as the file holds
   for (const std::string& part : splitAtDots(key)) {
     const auto index = asIndex(part);
     if (const toml::table* table = node->as_table()) {
@@ -104,9 +105,10 @@ std::string SceneDocument::place(const std::string& key) const {
       node = node->as_array() && index ? node->as_array()->get(*index) : nullptr;
     }
     if (!node) break;
+    found.append(found.empty() ? "" : ".").append(part);
     if (node->source().begin) source = node->source();
   }
-  return place(key, source);
+  return place(found, source);
 }
 
 }  // namespace spume::coupling

@@ -14,8 +14,8 @@ constexpr double kMostCells = 1 << 30;  // one float field of 4 GB
 std::optional<Conflict> ordered(const std::string& key, double value, const std::string& other, double limit,
                                 const std::string& unit) {
   if (value <= limit) return std::nullopt;
-  return Conflict{
-      key, "= " + exactText(value) + " exceeds " + other + " = " + exactText(limit) + " [" + unit + "]"};
+  return Conflict{key, "= " + exactText(value) + " exceeds " + other + " = " + exactText(limit) + " [" +
+                           unit + "]; lower the one or raise the other"};
 }
 
 bool isFileSafe(const std::string& name) {
@@ -41,7 +41,8 @@ std::optional<Conflict> inflowConflict(const Scene& scene) {
     const std::string table = "inflow." + std::to_string(i) + ".";
     if (auto conflict = ordered(table + "start", inflow.start, table + "stop", inflow.stop, "s"))
       return conflict;
-    if (!(inflow.direction.norm() > 0)) return Conflict{table + "direction", "must not be the zero vector"};
+    if (!(inflow.direction.norm() > 0))
+      return Conflict{table + "direction", "= [0, 0, 0] has no direction; [0, -1, 0] points downwards"};
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "coupling/object_label.h"
 #include "coupling/toml_slot.h"
 
 namespace spume::coupling {
@@ -138,18 +139,46 @@ double thickness(const ShapeSpec& shape) {
 
 bool isFromFile(ShapeKind kind) { return kind == ShapeKind::mesh || kind == ShapeKind::levelSet; }
 
-std::string defect(const ShapeSpec& shape) {
+void requireUsable(const ShapeSpec& shape) {
+  const std::string kind = nameOf(shape.kind);
+  const auto requirePositive = [&](const char* key, double value) {
+    if (!(value > 0)) throw KeyFault(key, "= " + exactText(value) + " m; a " + kind + " needs more than 0 m");
+  };
   if (shape.kind == ShapeKind::box && !((shape.upper - shape.lower).minCoeff() > 0))
-    return "upper must exceed lower on every axis; lower is " + exactText(shape.lower) + ", upper " +
-           exactText(shape.upper) + " [m]";
-  if (needsRadius(shape.kind) && !(shape.radius > 0)) return "radius must be greater than 0 [m]";
-  if (shape.kind == ShapeKind::cylinder && !(shape.height > 0)) return "height must be greater than 0 [m]";
-  if (shape.kind == ShapeKind::vessel &&
-      !(std::min({shape.innerDiameter, shape.innerHeight, shape.wallThickness, shape.bottomThickness}) > 0))
-    return "inner_diameter, inner_height, wall_thickness and bottom_thickness must be greater than 0 [m]";
-  if (isFromFile(shape.kind) && shape.file.empty()) return "file must name the mesh or the VDB";
-  if (needsAxis(shape.kind) && !(shape.axis.norm() > 0)) return "axis must not be the zero vector";
-  return {};
+    throw KeyFault("upper", "= " + exactText(shape.upper) +
+                                " m must exceed lower = " + exactText(shape.lower) + " m on every axis");
+  if (needsRadius(shape.kind)) requirePositive("radius", shape.radius);
+  if (shape.kind == ShapeKind::cylinder) requirePositive("height", shape.height);
+  if (shape.kind == ShapeKind::vessel) {
+    requirePositive("inner_diameter", shape.innerDiameter);
+    requirePositive("inner_height", shape.innerHeight);
+    requirePositive("wall_thickness", shape.wallThickness);
+    requirePositive("bottom_thickness", shape.bottomThickness);
+  }
+  if (isFromFile(shape.kind) && shape.file.empty())
+    throw KeyFault("file", shape.kind == ShapeKind::mesh ? "is missing; name the mesh, .obj or .ply"
+                                                         : "is missing; name the level set, .vdb");
+  if (needsAxis(shape.kind) && !(shape.axis.norm() > 0))
+    throw KeyFault("axis", "= [0, 0, 0] has no direction; [0, 1, 0] points upwards");
+}
+
+ShapeKey placeKey(const ShapeSpec& shape) {
+  if (shape.kind == ShapeKind::box) return {"lower", "= " + exactText(shape.lower) + " m"};
+  return {"centre", "= " + exactText(shape.centre) + " m"};
+}
+
+ShapeKey sizeKey(const ShapeSpec& shape) {
+  switch (shape.kind) {
+    case ShapeKind::box:
+      return {"upper", "= " + exactText(shape.upper) + " m"};
+    case ShapeKind::sphere:
+    case ShapeKind::cylinder:
+      return {"radius", "= " + exactText(shape.radius) + " m"};
+    case ShapeKind::vessel:
+      return {"inner_diameter", "= " + exactText(shape.innerDiameter) + " m"};
+    default:
+      return {"shape", "= " + quoted(nameOf(shape.kind))};
+  }
 }
 
 const char* nameOf(ShapeKind kind) {

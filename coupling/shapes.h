@@ -24,8 +24,19 @@ double thickness(const ShapeSpec& shape);
 /// Whether the shape is read from a file: a mesh or a level set.
 bool isFromFile(ShapeKind kind);
 
-/// What makes the shape unusable ("upper must exceed lower on every axis"), or an empty string.
-std::string defect(const ShapeSpec& shape);
+/// Throws KeyFault for what makes the shape unusable, such as an upper corner that is not above the lower.
+void requireUsable(const ShapeSpec& shape);
+
+/// A key of a shape and what a message says of its value: "radius", "= 0.1 m".
+struct ShapeKey {
+  std::string name, value;
+};
+
+/// The key that says where a shape is, "lower" or "centre".
+ShapeKey placeKey(const ShapeSpec& shape);
+
+/// The one that says how large it is: "upper", "radius", "inner_diameter"; its kind where none does.
+ShapeKey sizeKey(const ShapeSpec& shape);
 
 /// The scene's word for a kind: box, sphere, cylinder, half_space, vessel, mesh, level_set.
 const char* nameOf(ShapeKind kind);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "coupling/errors.h"
+#include "coupling/object_label.h"
 #include "coupling/toml_slot.h"
 #include "coupling/triangle_mesh.h"
 #include "coupling/vdb_file.h"
@@ -30,11 +31,12 @@ DistanceField fieldAround(const ShapeSpec& shape, const Box& box, double dx, dou
   const Eigen::Vector3d size = box.second - box.first;
   const double reach = box.first.cwiseAbs().cwiseMax(box.second.cwiseAbs()).maxCoeff();
   if (!(size.maxCoeff() <= longest && reach <= kFarthest))
-    throw SceneError(shape.file + ": is " + exactText(size.maxCoeff()) + " m long and reaches " +
-                     exactText(reach) + " m from its origin at scale = " + exactText(shape.scale) +
-                     " [m per unit of the file]; at most " + exactText(longest) + " m and " +
-                     exactText(kFarthest) +
-                     " m in this domain; write scale = 0.01 for centimetres, 0.001 for millimetres");
+    throw KeyFault("scale", shape.file + ": is ",
+                   exactText(size.maxCoeff()) + " m long and reaches " + exactText(reach) +
+                       " m from its origin at scale = " + exactText(shape.scale) +
+                       " [m per unit of the file]; at most " + exactText(longest) + " m and " +
+                       exactText(kFarthest) +
+                       " m in this domain; write scale = 0.01 for centimetres, 0.001 for millimetres");
   const double voxel = DistanceField::affordableVoxel(
       (size.array() + 2 * kMargin * dx / kVoxelsPerCell).matrix(), dx / kVoxelsPerCell);
   const Eigen::Vector3i first = (box.first / voxel).array().floor().cast<int>() - kMargin;

@@ -77,7 +77,8 @@ TEST_F(FirstBubblesOfAScene, MayNotShareAnId) {
   write("a.csv", kHead + "7,0.5,0.5,0.5,0.0625\n");
   write("b.csv", kHead + "6,0.5,0.5,0.5,0.0625\n7,0.5,0.5,0.5,0.0625\n");
   const std::string message = refusal(file("a.csv") + file("b.csv"));
-  for (const char* part : {"scene.toml:", "b.csv:3: id 7 is already that of ", "a.csv:2; every bubble"})
+  for (const char* part :
+       {"scene.toml:6:8: bubbles 1: ", "b.csv:3: id = 7 is already that of ", "a.csv:2; every bubble"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
 }
 
@@ -85,7 +86,7 @@ TEST_F(FirstBubblesOfAScene, MayNotHaveIdsThatCachesCannotHold) {
   write("a.csv", kHead + "4503599627370496,0.5,0.5,0.5,0.0625\n");
   EXPECT_EQ(refusal(file("a.csv")), "");
   write("a.csv", kHead + "4503599627370497,0.5,0.5,0.5,0.0625\n");
-  EXPECT_NE(refusal(file("a.csv")).find("a.csv:2: id 4503599627370497; a scene may give 0 to"),
+  EXPECT_NE(refusal(file("a.csv")).find("a.csv:2: id = 4503599627370497; a scene may give 0 to"),
             std::string::npos);
 }
 

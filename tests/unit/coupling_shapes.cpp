@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "coupling/object_label.h"
 #include "coupling/shapes.h"
 
 namespace spume::coupling {
@@ -117,20 +118,37 @@ TEST(Shapes, BoundsTouchTheShape) {
   }
 }
 
-TEST(Shapes, DefectsAreNamed) {
-  EXPECT_EQ(defect(box()), "");
+/// The key that a shape is refused for; empty if it is not.
+std::string refusedKey(const ShapeSpec& shape) {
+  try {
+    requireUsable(shape);
+  } catch (const KeyFault& fault) {
+    return fault.key();
+  }
+  return "";
+}
+
+TEST(Shapes, AreRefusedForTheKeyThatIsWrong) {
+  EXPECT_EQ(refusedKey(box()), "");
   ShapeSpec flat = box();
   flat.upper.y() = flat.lower.y();
-  EXPECT_NE(defect(flat).find("upper"), std::string::npos);
+  EXPECT_EQ(refusedKey(flat), "upper");
   ShapeSpec point = sphere();
   point.radius = 0;
-  EXPECT_NE(defect(point).find("radius"), std::string::npos);
-  ShapeSpec noWall = mug();
-  noWall.wallThickness = 0;
-  EXPECT_NE(defect(noWall).find("wall_thickness"), std::string::npos);
+  EXPECT_EQ(refusedKey(point), "radius");
   ShapeSpec noAxis = cylinder();
   noAxis.axis.setZero();
-  EXPECT_NE(defect(noAxis).find("axis"), std::string::npos);
+  EXPECT_EQ(refusedKey(noAxis), "axis");
+  const std::pair<double ShapeSpec::*, std::string> kOfAMug[] = {
+      {&ShapeSpec::innerDiameter, "inner_diameter"},
+      {&ShapeSpec::innerHeight, "inner_height"},
+      {&ShapeSpec::wallThickness, "wall_thickness"},
+      {&ShapeSpec::bottomThickness, "bottom_thickness"}};
+  for (const auto& [length, key] : kOfAMug) {
+    ShapeSpec flatMug = mug();
+    flatMug.*length = 0;
+    EXPECT_EQ(refusedKey(flatMug), key);
+  }
 }
 
 }  // namespace
