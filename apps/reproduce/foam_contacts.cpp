@@ -47,6 +47,7 @@ std::vector<ResultRow> rowsOf(const char* kind, const ContactLaw& law, const cha
             growth = contactRow(kind, "exponent of Z - Zc beyond it, up to 0.94", exponent, kSource),
             rest = contactRow(kind, "largest net force left, of the mean push", "0", "exact");
   growth.note = law.name();
+  density.note = "by a descent of their own: the foam's step holds volumes of balls, no areas of discs";
   if (!law.settled) rest.note = "not every packing came to rest";
   return {reportOnly(density, law.density, "-"), reportOnly(growth, law.excess.exponent(), "-"),
           aimAtMost(rest, law.unrest, SoftPacking::kAtRest, "-")};

@@ -162,13 +162,22 @@ double SoftPacking::unrest() const {
   return mean > 0 ? largestForce() / mean : 0;
 }
 
+bool SoftPacking::isAtRest() const {
+  const double mean = meanPush();
+  return worstArea() <= kAreaOff && (mean < kNothing || largestForce() < kAtRest * mean);
+}
+
+void SoftPacking::moveTo(const std::vector<Vector3d>& position) {
+  position_ = position;
+  findForces();
+}
+
 bool SoftPacking::relax() {
   velocity_.assign(position_.size(), Vector3d::Zero());
   double dt = kFirstStep, mix = kMix;
   int downhill = 0;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const double mean = meanPush();
-    if (worstArea() <= kAreaOff && (mean < kNothing || largestForce() < kAtRest * mean)) return true;
+    if (isAtRest()) return true;
     double power = 0, speed = 0, force = 0;
     for (std::size_t i = 0; i < position_.size(); ++i) {
       power += force_[i].dot(velocity_[i]);

@@ -46,6 +46,7 @@ class SoftPacking {
   /// whose overlap others cover still push each other, as bubbles do. To be called at rest: cells of discs
   /// that lie on each other can not all be filled. Throws foam::InvalidParameter in three dimensions.
   void holdAreas();
+  bool holdsAreas() const { return cells_.has_value(); }
   /// Largest relative departure of a cell's area from the one it holds; 0 of soft balls.
   double worstArea() const { return cells_ ? cells_->worst() : 0; }
   /// Largest net force on a ball over the mean push of the contacts; 0 if there are none.
@@ -59,6 +60,10 @@ class SoftPacking {
   /// kAtRest, and cells hold their areas to kAreaOff, or no ball touches another. Returns whether they
   /// did.
   bool relax();
+  /// Whether relax() would leave the balls where they are.
+  bool isAtRest() const;
+  /// Puts the balls there, one place each.
+  void moveTo(const std::vector<Eigen::Vector3d>& position);
 
   /// The pushes between the balls as they are.
   struct Census {
@@ -74,6 +79,7 @@ class SoftPacking {
   /// Places in [0, edge) and the edge of the box.
   const std::vector<Eigen::Vector3d>& position() const { return position_; }
   double edge() const { return edge_; }
+  int dimensions() const { return params_.dimensions; }
   double radius(std::size_t ball) const { return radius_[ball]; }
 
  private:

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "apps/reproduce/disc_cells.h"
+#include "apps/reproduce/foam_relaxation.h"
 #include "apps/reproduce/jamming_path.h"
 #include "apps/reproduce/power_law.h"
 #include "apps/reproduce/shear_modulus.h"
@@ -47,6 +48,35 @@ TEST(SoftPacking, PressureIsThatOfTheSpringsOfALatticeOfTwo) {
   const double exact = 4 * (2 - apart) * apart / (2 * edge * edge);
   EXPECT_NEAR(packing.census().pressure, exact, 1e-4 * exact);  // at rest to 1e-5 of a push
   EXPECT_EQ(packing.census().contacts, 4);
+}
+
+/// The same by steps of the foam, with images of the discs beside the box.
+TEST(FoamRelaxation, BringsTheLatticeOfTwoToTheSamePressure) {
+  SoftPacking packing({.count = 2, .dimensions = 2, .fraction = 0.9, .seed = 3});
+  EXPECT_FALSE(packing.isAtRest());
+  EXPECT_TRUE(relaxAsFoam(packing));
+  const double edge = packing.edge(), apart = edge / std::sqrt(2.0);
+  const double exact = 4 * (2 - apart) * apart / (2 * edge * edge);
+  EXPECT_NEAR(packing.census().pressure, exact, 1e-4 * exact);  // at rest to 1e-5 of a push
+  EXPECT_EQ(packing.census().contacts, 4);
+}
+
+/// What the foam leaves at rest is at rest for the packing's own springs, which know the periodic box.
+TEST(FoamRelaxation, LeavesAJammedPackingWithoutNetForces) {
+  SoftPacking packing({.count = 60, .fraction = 0.72});
+  ASSERT_TRUE(relaxAsFoam(packing));
+  EXPECT_LE(packing.unrest(), SoftPacking::kAtRest);
+  EXPECT_GT(packing.census().contacts, 6);
+  const std::vector<Eigen::Vector3d> settled = packing.position();
+  EXPECT_TRUE(packing.relax());
+  EXPECT_EQ(packing.position(), settled);
+}
+
+TEST(FoamRelaxation, IsNotForCellsThatHoldTheirAreas) {
+  SoftPacking packing({.count = 2, .dimensions = 2, .fraction = 0.9, .seed = 3});
+  ASSERT_TRUE(packing.relax());
+  packing.holdAreas();
+  EXPECT_THROW(relaxAsFoam(packing), foam::InvalidParameter);
 }
 
 TEST(SoftPacking, KeepsItsFraction) {
