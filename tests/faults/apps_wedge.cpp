@@ -29,7 +29,8 @@ TEST(WedgeFaults, ABadVariantNamesItsArgumentAndNothingIsWritten) {
         {"liquid.clf=2", "liquid.cfl"},
         {"foam.volume_mode=relax,newtno", "--vary foam.volume_mode=newtno"},
         {"liquid.cfl=2,[4", "--vary liquid.cfl=2,[4: "},
-        {"time.max_step=0.02,0.001", "with --vary time.max_step=0.001"},
+        {"time.max_step=0.02,0.001", "--vary time.max_step=0.001: time.min_step = 0.005 exceeds"},
+        {"domain.size=[0.01,0.01,0.01]", "; with --vary domain.size=[0.01,0.01,0.01]"},
         {"inflow.0.centre=[0.03,0.05,0.03],[9,9,9]", "--vary inflow.0.centre=[9,9,9]"},
         {"inflow.1.radius=0.01", "--vary inflow.1.radius=0.01"}}) {
     expectRefused(wedge(scratch, std::string("--vary '") + vary + "'"), 2, part);
