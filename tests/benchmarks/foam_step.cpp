@@ -150,7 +150,8 @@ struct StepTimes {
 /// What the run of one foam gives: named seconds, and what the foam was.
 struct Result {
   Options options;
-  double contacts = 0;  ///< a bubble
+  double contacts = 0;    ///< a bubble
+  double iterations = 0;  ///< a step, mean
   FoamStepReport last;
   std::vector<std::pair<std::string, double>> stages;     ///< of the step, itself the last [s]
   std::vector<std::pair<std::string, double>> reference;  ///< [s]
@@ -164,10 +165,12 @@ Result measure(const Options& options) {
   const StillPool pool(foam.box);
   FoamSolver solver(foam.params);
   StepTimes times;
-  Result result{options, 0, {}, {}, {}};
+  Result result{options, 0, 0, {}, {}, {}};
   for (int step = -kWarmUp; step < options.steps; ++step) {
     const double total = secondsOf([&] { result.last = solver.step(foam.bubbles, pool, options.dt); });
-    if (step >= 0) times.add(result.last, total);
+    if (step < 0) continue;
+    times.add(result.last, total);
+    result.iterations += result.last.solverIterations / static_cast<double>(options.steps);
   }
   result.contacts = 2.0 * static_cast<double>(result.last.contacts) / options.bubbles;
   for (const auto& name : times.names) result.stages.emplace_back(name, times[name]);
@@ -185,10 +188,10 @@ Result measure(const Options& options) {
 void print(const Result& result) {
   const Options& options = result.options;
   std::printf(
-      "%d bubbles, wetness %.2f, dt %g ms, %s: %.2f contacts per bubble, %d iterations, fastest %.3g m/s%s\n",
+      "%d bubbles, wetness %.2f, dt %g ms, %s: %.2f contacts per bubble, %.1f iterations, fastest %.3g "
+      "m/s%s\n",
       options.bubbles, options.wetness, 1e3 * options.dt, options.forces.c_str(), result.contacts,
-      result.last.solverIterations, result.last.maxSpeed,
-      result.last.solverFellBack ? ", direct solver" : "");
+      result.iterations, result.last.maxSpeed, result.last.solverFellBack ? ", direct solver" : "");
   for (const auto& [name, seconds] : result.stages)
     std::printf("  %-12s %9.4f s  %8.1f ns per bubble\n", name.c_str(), seconds,
                 1e9 * seconds / options.bubbles);
@@ -202,9 +205,9 @@ void print(const Result& result) {
 void write(const Result& result, std::FILE* table) {
   for (const auto* part : {&result.stages, &result.reference})
     for (const auto& [name, seconds] : *part)
-      std::fprintf(table, "%d,%g,%s,%.2f,%d,%s,%.5g,%.5g\n", result.options.bubbles, result.options.wetness,
-                   result.options.forces.c_str(), result.contacts, result.last.solverIterations, name.c_str(),
-                   seconds, 1e9 * seconds / result.options.bubbles);
+      std::fprintf(table, "%d,%g,%s,%.2f,%.1f,%s,%.5g,%.5g\n", result.options.bubbles, result.options.wetness,
+                   result.options.forces.c_str(), result.contacts, result.iterations, name.c_str(), seconds,
+                   1e9 * seconds / result.options.bubbles);
   std::fflush(table);
 }
 
