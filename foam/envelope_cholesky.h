@@ -40,7 +40,7 @@ class EnvelopeCholesky {
   std::size_t width(std::size_t row) const { return 3 * (row - first_[row]); }
   double* lines(std::size_t row) { return &value_[begin_[row]]; }
   const double* lines(std::size_t row) const { return &value_[begin_[row]]; }
-  void fetch(std::size_t& fetched, std::size_t row) const;
+  void fetch(std::size_t& fetched, std::size_t row) const;  ///< of solve(): into the caches
 
   std::vector<std::int32_t> source_, place_;  ///< the matrix's row behind each of the factor's, and back
   std::vector<std::size_t> first_;            ///< first column of each row, in blocks

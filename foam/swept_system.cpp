@@ -103,8 +103,8 @@ void SweptSystem::orderRows() {
 inline SweptSystem::Kind SweptSystem::kindOf(const Spot& row, const Spot& other) const {
   const bool inTurn =
       (row.block == other.block) | ((row.block < firstBorder_) != (other.block < firstBorder_));
-  const int isEarlier = other.place < row.place;
-  return static_cast<Kind>(inTurn & sweeps_ ? isEarlier : 2);
+  const std::uint8_t isEarlier = other.place < row.place, beyond = kBeyond;
+  return static_cast<Kind>(inTurn & sweeps_ ? isEarlier : beyond);
 }
 
 /// How many couplings of each kind a row has.
