@@ -34,7 +34,7 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
   clusters_ = wanted ? std::min(kMostClusters, n / kLeastRows) : 0;
   if (clusters_ < kLeastClusters) clusters_ = 0;
   cluster_.resize(n), isFree_.assign(n, 0);
-  if (clusters_ == 0) return;
+  if (clusters_ == 0) return forgetMatrix();
   firstRow_.resize(clusters_ + 1);
   for (std::size_t g = 0; g <= clusters_; ++g) firstRow_[g] = static_cast<std::int32_t>(firstRow(g));
   forEachIndex(n, [&](std::size_t i) {
@@ -46,6 +46,12 @@ void CoarseCorrection::build(const BlockSystem& a, const SweptSystem& swept, boo
     for (std::int32_t i = firstRow_[g]; i < firstRow_[g + 1]; ++i) fillRow(a, swept, i);
     sumCluster(swept, g);
   });
+}
+
+/// That of a system with clusters, which the last one may have been.
+void CoarseCorrection::forgetMatrix() {
+  matrix_ = {};
+  factor_.order(matrix_);
 }
 
 /// What a translation does to a row depends on which of its neighbours are free.

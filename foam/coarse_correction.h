@@ -56,6 +56,7 @@ class CoarseCorrection {
   Eigen::Vector3d pullOf(std::size_t c, const Eigen::Vector4f* v) const;
 
  private:
+  void forgetMatrix();
   template <typename Use>
   void forEachLink(const BlockSystem& a, std::size_t i, const Use& use) const;
   std::int32_t countLinks(const BlockSystem& a, std::size_t i) const;

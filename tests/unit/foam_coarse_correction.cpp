@@ -109,5 +109,16 @@ TEST(CoarseCorrection, FewRowsHaveNone) {
   EXPECT_EQ(Clusters(one).coarse.clusters(), 0u);
 }
 
+TEST(CoarseCorrection, ForgetsTheClustersOfALargerSystem) {
+  const BlockSystem one{{Eigen::Matrix3d::Identity()}, {0, 0}, {}, {}};
+  Clusters clusters(sheet());
+  clusters.swept.copy(one, true), clusters.coarse.build(one, clusters.swept, true), clusters.coarse.factor();
+  EXPECT_EQ(clusters.coarse.clusterOf(0), 0u) << "in none";
+  Eigen::VectorXd none, motion, pull;
+  clusters.coarse.sumUp({Eigen::Vector3d::UnitX()}, none);
+  clusters.coarse.solve(none, motion), clusters.coarse.stiffen(motion, pull);
+  EXPECT_EQ(none.size() + motion.size() + pull.size(), 0);
+}
+
 }  // namespace
 }  // namespace spume::foam

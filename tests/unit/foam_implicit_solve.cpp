@@ -118,6 +118,21 @@ TEST(ImplicitSolve, SolvingAgainFollowsOwnBlocksThatChanged) {
   }
 }
 
+/// A foam of which bubbles burst: from clusters to none, from several blocks to one, from two bubbles to one.
+TEST(ImplicitSolve, SolvesSystemsThatShrinkAndGrow) {
+  ImplicitSolve solve(LinearSolver::pcgIncompleteCholesky);
+  for (const int n : {7000, 6143, 6144, 40000, 1100, 1000, 2, 1, 7000}) {
+    const BlockSystem a = randomSystem(n, 100);
+    const Vectors3 exact = randomVectors(static_cast<std::size_t>(n)), b = product(a, exact);
+    Vectors3 x(exact.size(), Eigen::Vector3d::Zero());
+    const double first = solve.begin(a, b, x);
+    EXPECT_TRUE(solve.solve(a, b, 1e-9 * first, 1000, x).converged) << n;
+    double worst = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, (x[i] - exact[i]).norm());
+    EXPECT_LE(worst, 1e-6) << n;
+  }
+}
+
 TEST(ImplicitSolve, BeginsWithWhatIsLeftWhereFewOfXAreNotZero) {
   const BlockSystem a = randomSystem(3000, 1e4);
   const Vectors3 b = randomVectors(a.size());
