@@ -200,13 +200,17 @@ void InflowSet::close(Nozzle& nozzle, SolidBoundary& boundary) const {
   nozzle.open = true;
 }
 
+void InflowSet::release(SolidBoundary& boundary) {
+  for (auto nozzle = nozzles_.rbegin(); nozzle != nozzles_.rend(); ++nozzle) release(*nozzle, boundary);
+}
+
 const std::vector<PouredVolume>& InflowSet::stamp(double t, double dt, DenseField<float>& phi,
                                                   SolidBoundary& boundary) {
   poured_.clear();
   reshaped_ = false;
   for (std::size_t n = 0; n < inflows_.size(); ++n)
     reshaped_ |= nozzles_[n].open != (scaleAt(inflows_[n], t) > 0);
-  for (auto nozzle = nozzles_.rbegin(); nozzle != nozzles_.rend(); ++nozzle) release(*nozzle, boundary);
+  release(boundary);
   for (std::size_t n = 0; n < inflows_.size(); ++n) {
     Nozzle& nozzle = nozzles_[n];
     if (!(scaleAt(inflows_[n], t) > 0)) continue;

@@ -46,6 +46,9 @@ class InflowSet {
   const std::vector<PouredVolume>& stamp(double t, double dt, DenseField<float>& phi,
                                          SolidBoundary& boundary);
 
+  /// Gives the faces of all regions back, as before the first stamp.
+  void release(SolidBoundary& boundary);
+
   /// Whether the last stamp turned air into liquid, or opened or closed a region.
   bool reshaped() const { return reshaped_; }
 

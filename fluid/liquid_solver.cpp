@@ -50,7 +50,7 @@ LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std
   in.pushed = pushes;
   LiquidStepReport report;
   StageClock clock;
-  const double end = in.state.time + dt;
+  in.stepEnd = in.state.time + dt;
   try {
     double longest = dt;  // a sub-step may be cut short; the next ones grow again by no more than twice
     for (double remaining = dt; remaining > 0;) {
@@ -63,7 +63,7 @@ LiquidStepReport LiquidSolver::step(double dt, const ImmersedGas& gas, const std
         remaining = left == 1 ? 0 : remaining * (left - 1) / left;
       longest = 2 * taken;
     }
-    in.state.time = end;
+    in.state.time = in.stepEnd;
     in.measure(report);
   } catch (...) {  // a failure of the numbers, or out of memory
     rollBack();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -71,11 +72,22 @@ void LiquidStages::startPockets() {
 }
 
 void LiquidStages::resumeControl() {
-  inflows.stamp(state.time, 0, state.phi, solids);
+  if (state.subSteps > 0)
+    inflows.stamp(state.time, 0, state.phi, solids);
+  else
+    inflows.release(solids);  // nothing has been poured yet
   bodies.find(state.grid, state.phi, solids);
   volumeControl.resume(bodies, state.volume);
   findPockets(state.time);
   pocketBooks.resume(pockets, state.volume.pocketGas);
+}
+
+/// What opens at the end of a step has to find itself open in its last sub-step, as in a run resumed from
+/// there.
+double LiquidStages::endOf(double dt) const {
+  const double end = state.time + dt,
+               roundOff = kRoundOff * dt + 4 * std::numeric_limits<double>::epsilon() * std::abs(stepEnd);
+  return std::abs(stepEnd - end) <= roundOff ? stepEnd : end;
 }
 
 bool LiquidStages::solidsMove() const {
@@ -85,7 +97,7 @@ bool LiquidStages::solidsMove() const {
 void LiquidStages::moveSolids(double dt) {
   if (!solidsMove()) return;
   psiBefore = solids.psi;
-  if (!updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time + dt, solids)) {
+  if (!updateSolidBoundary(state.grid, setup.walls, setup.solids, endOf(dt), solids)) {
     if (extension.hasUncovered()) extension.rebuild(solids);  // as a resumed run has it
     return;
   }
@@ -123,7 +135,7 @@ double LiquidStages::transport(double asked, LiquidStepReport& report) {
   scene.middle = state.time + 0.5 * dt;
   advectMarkers(scene, surfaceVelocity, dt, state.positive);
   advectMarkers(scene, surfaceVelocity, dt, state.negative);
-  report.drained += outflows.empty(state.time + dt, solids, state.phi, state.negative, volumeControl);
+  report.drained += outflows.empty(endOf(dt), solids, state.phi, state.negative, volumeControl);
   extension.apply(state.phi);
   sorter.compact(state.positive);
   sorter.compact(state.negative);
@@ -192,7 +204,7 @@ void LiquidStages::findPockets(double t) {
 }
 
 void LiquidStages::fillPockets(double dt) {
-  pockets.find(state.grid, state.phi, solids, outflows.openCells(state.time + dt));
+  pockets.find(state.grid, state.phi, solids, outflows.openCells(endOf(dt)));
   const auto filled = pockets.fillSmall(state.grid, solids, state.velocity, state.phi);
   collapsePockets(markerScene(), filled, state.phi, state.velocity, sorter, cellMark, state.positive,
                   collapsed);
@@ -200,12 +212,12 @@ void LiquidStages::fillPockets(double dt) {
 }
 
 void LiquidStages::pour(double dt, const ImmersedGas& gas, LiquidStepReport& report) {
-  const std::vector<PouredVolume>& poured = inflows.stamp(state.time + dt, dt, state.phi, solids);
+  const std::vector<PouredVolume>& poured = inflows.stamp(endOf(dt), dt, state.phi, solids);
   for (const PouredVolume& p : poured) report.poured += p.volume;
   extension.apply(state.phi);
   findBodies(report);
   volumeControl.update(bodies, state.velocity, dt, poured, gas);
-  if (pocketsFilled || inflows.reshaped()) findPockets(state.time + dt);
+  if (pocketsFilled || inflows.reshaped()) findPockets(endOf(dt));
   pocketBooks.update(pockets, state.velocity, dt);
 }
 
@@ -247,7 +259,7 @@ double LiquidStages::subStep(double asked, const ImmersedGas& gas, LiquidStepRep
   checkFinite(dt);
   state.volume = volumeControl.ledger();
   state.volume.pocketGas = pocketBooks.gas();
-  state.time += dt;
+  state.time = endOf(dt);
   state.lead += advance - dt;
   lastAdvance = advance;
   ++state.subSteps;

@@ -82,6 +82,7 @@ struct LiquidStages {
   std::vector<EscapedMarker> escaped;
   std::vector<CollapsedPocket> collapsed;
   std::size_t escapedBefore = 0, collapsedBefore = 0;
+  double stepEnd = 0;          ///< of the step whose sub-steps these are [s]
   double maxSpeed = 0;         ///< that is held to `cfl`, see carryingSpeed [m/s]
   double lastAdvance = 0;      ///< time that the velocity advanced in the last sub-step [s]
   bool pocketsFilled = false;  // after they were found in this sub-step
@@ -92,6 +93,7 @@ struct LiquidStages {
   double longestStep() const;
   int subStepsFor(double dt) const;
 
+  double endOf(double dt) const;  ///< where a sub-step of dt from now ends [s]
   double subStep(double dt, const ImmersedGas& gas, LiquidStepReport& report, StageClock& clock);
   bool solidsMove() const;
   void moveSolids(double dt);

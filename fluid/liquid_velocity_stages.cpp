@@ -61,7 +61,7 @@ void LiquidStages::project(double dt, double advance, LiquidStepReport& report) 
   source.fill(0);
   if (params.volumeControl) volumeControl.addSource(bodies, solids, dt, source);
   inflows.addSource(source);
-  report.drained += outflows.pump(state.time + dt, dt, state.phi, solids, source, volumeControl);
+  report.drained += outflows.pump(endOf(dt), dt, state.phi, solids, source, volumeControl);
   const HeldPockets held{pockets.label(), pockets.pockets(), pocketBooks.growth(pockets, dt)};
   const ProjectionReport solve =
       projection.project(state.phi, solids, advance, source, state.velocity, state.pressureGradient, &held);
