@@ -174,14 +174,15 @@ void Viscosity::multiply(const Vector& x, double k, Vector& y) const {
     forEachRow(mass_[a].size(), [&](int i, int j) { multiplyRow(x, k, a, i, j, &y[a](i, j, 0)); });
 }
 
-/// Conjugate gradients with the diagonal as preconditioner, from change_ = 0 and residual_ = b. Returns the
-/// largest residual over its diagonal [m/s].
-double Viscosity::solve(double tolerance, double k) {
+/// Conjugate gradients with the diagonal as preconditioner, from change_ = 0 and residual_ = b, to kTolerance
+/// of the fastest speed, or of the first error: liquid at rest may border on a nozzle that pours. Whether it
+/// got there.
+bool Viscosity::solve(double fastest, double k) {
   const Eigen::Vector3i& cells = grid_.cells;
   for (int a = 0; a < 3; ++a) change_[a].fill(0), direction_[a].fill(0), image_[a].fill(0);
-  double previous = 0, error = 0;
+  double previous = 0, tolerance = 0;
   for (iterations_ = 0;; ++iterations_) {
-    error = reduceRows(
+    error_ = reduceRows(
         cells,
         [&](int a, int i, int j, int count) {
           const double* r = &residual_[a](i, j, 0);
@@ -191,7 +192,8 @@ double Viscosity::solve(double tolerance, double k) {
           return most;
         },
         largest);
-    if (!(error > tolerance) || iterations_ == kMostIterations) return error;
+    if (iterations_ == 0) tolerance = kTolerance * std::max(fastest, error_);
+    if (!(error_ > tolerance) || iterations_ == kMostIterations) return error_ <= tolerance;
     const double product = reduceRows(
         cells,
         [&](int a, int i, int j, int count) {
@@ -247,11 +249,10 @@ void Viscosity::apply(const DenseField<float>& phi, const SolidBoundary& boundar
       if (!(inverse_[a](i, j, l) > 0)) return;
       residual_[a](i, j, l) = mass_[a](i, j, l) * start_[a](i, j, l) - residual_[a](i, j, l);
     });
-  const double error = solve(kTolerance * fastest, k);
-  if (!(error <= kTolerance * fastest)) {
+  if (!solve(fastest, k)) {
     std::ostringstream message;
-    message << "viscosity: " << iterations_ << " iterations left an error of " << error << " m/s at dt " << dt
-            << " s";
+    message << "viscosity: " << iterations_ << " iterations left an error of " << error_ << " m/s at dt "
+            << dt << " s";
     throw NumericalFailure(message.str());
   }
   for (int a = 0; a < 3; ++a)

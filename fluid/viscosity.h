@@ -36,7 +36,7 @@ class Viscosity {
   float edgeWeight(const SolidBoundary& boundary, int a, int b, const Eigen::Vector3i& c) const;
   bool isDry(int axis, const Eigen::Vector3i& face) const;
   bool isHeld(const SolidBoundary& boundary, int axis, const Eigen::Vector3i& face) const;
-  double solve(double tolerance, double k);
+  bool solve(double fastest, double k);
   void multiply(const Vector& x, double k, Vector& y) const;
   void multiplyRow(const Vector& x, double k, int axis, int i, int j, double* y) const;
   void invertDiagonal(double k);
@@ -45,6 +45,7 @@ class Viscosity {
   double kinematic_;  // nu [m^2/s]
   bool noSlip_;
   int iterations_ = 0;
+  double error_ = 0;                        // largest residual over its diagonal [m/s]
   DenseField<float> fraction_;              // liquid fraction of each cell, ghosts as their nearest cell
   MacField<float> mass_;                    // m of each face
   std::array<DenseField<float>, 3> shear_;  // W of the edges; [a] has those across the other two axes

@@ -53,6 +53,21 @@ TEST(Viscosity, AChannelDecaysAtTheDiscreteRate) {
   });
 }
 
+/// Liquid at rest is drawn along by a layer that is held at 1 m/s, as by a nozzle that pours into it: with k
+/// = nu dt/dx^2 the implicit step gives u_j = q^j at j cells from the layer, q + 1/q = 2 + 1/k.
+TEST(Viscosity, LiquidAtRestIsDrawnAlongByWhatMoves) {
+  constexpr int kTop = 15;
+  constexpr double k = 0.1;
+  Stage stage(16, {{false, false, true, true, false, false}}, k / (kDt * 16 * 16));
+  MacVelocity u(stage.grid.cells);
+  for (int i = 0; i <= 16; ++i)
+    for (int l = 0; l < 16; ++l) stage.solids.prescribed[0](i, kTop, l) = 1, u[0](i, kTop, l) = 1;
+  stage.apply(full(stage.grid), u);
+  const double half = 1 + 0.5 / k, q = half - std::sqrt(half * half - 1);
+  for (int j = 0; j <= kTop; ++j) EXPECT_NEAR(u[0](8, j, 8), std::pow(q, kTop - j), kFloat) << j;
+  EXPECT_NEAR(u[1](8, 8, 8), 0, kFloat);
+}
+
 /// No face carries less than half a twentieth of a cell, so with k = nu dt/dx^2 = 0.01 Gershgorin's circles
 /// bound the condition of the matrix by 1 + 32 k/0.025 = 14: log(2/1e-8)/2 sqrt(14) = 36 iterations.
 TEST(Viscosity, FacesOfNextToNoLiquidDoNotSpoilTheSolve) {
