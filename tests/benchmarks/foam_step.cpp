@@ -4,12 +4,12 @@
 /// Prints a table.
 ///
 /// usage: bench_foam_step [bubbles] [wetness %] [steps] [dt ms] [pcg_ic|pcg_jacobi|cholmod] [reference 0|1]
-///                        [contacts|attraction|newton]
+///                        [contacts|attraction|newton] [tolerance]
 ///        bench_foam_step all FILE.csv
 /// `contacts`: forces between bubbles in contact, walls, liquid; volumes relaxed. `attraction`: also that of
 /// floating bubbles, the preset as it is. `newton`: both, and every cell made to hold its gas. `all` runs 4K,
-/// 16K, 100K and 1M bubbles, wet and dense, each beside its reference, and dense ones with all else; FILE.csv
-/// gets a row a stage.
+/// 16K, 100K and 1M bubbles, wet and dense, each beside its reference, and dense ones with all else and at
+/// the tolerance of the scenes of coke; FILE.csv gets a row a stage.
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
@@ -29,6 +29,7 @@
 namespace spume::foam::test {
 namespace {
 
+constexpr double kCoke = 1e-4;  ///< foam.solver_tolerance of the scenes of coke
 constexpr int kWarmUp = 10;  ///< steps before the clock counts: lists are built, the walls have pushed back
 
 struct Options {
@@ -39,6 +40,7 @@ struct Options {
   LinearSolver solver = LinearSolver::pcgIncompleteCholesky;
   bool reference = true;
   std::string forces = "contacts";
+  double tolerance = FoamParams().solverTolerance;
 
   Options() = default;
   /// Exits where the command line is none.
@@ -64,13 +66,15 @@ struct Options {
     reference = number(6, 1, 0) != 0;
     if (argc > 7) forces = argv[7];
     if (forces != "contacts" && forces != "attraction" && forces != "newton") refuse(forces);
+    tolerance = number(8, tolerance, 1e-12);
   }
 
   [[noreturn]] static void refuse(const std::string& word) {
     std::fprintf(
         stderr,
         "bench_foam_step: %s does not fit\nusage: bench_foam_step [bubbles >= 2] [wetness %%] [steps >= 1] "
-        "[dt ms] [pcg_ic|pcg_jacobi|cholmod] [reference 0|1] [contacts|attraction|newton]\n"
+        "[dt ms] [pcg_ic|pcg_jacobi|cholmod] [reference 0|1] [contacts|attraction|newton] [tolerance >= "
+        "1e-12]\n"
         "       bench_foam_step all FILE.csv\n",
         word.c_str());
     std::exit(2);
@@ -159,7 +163,7 @@ struct Result {
 
 Result measure(const Options& options) {
   FloatingFoam foam(options.bubbles, options.wetness);
-  foam.params.solver = options.solver;
+  foam.params.solver = options.solver, foam.params.solverTolerance = options.tolerance;
   if (options.forces == "contacts") foam.params.attractionLaw = AttractionLaw::none;
   if (options.forces == "newton") foam.params.volumeMode = VolumeMode::newton;
   const StillPool pool(foam.box);
@@ -188,10 +192,11 @@ Result measure(const Options& options) {
 void print(const Result& result) {
   const Options& options = result.options;
   std::printf(
-      "%d bubbles, wetness %.2f, dt %g ms, %s: %.2f contacts per bubble, %.1f iterations, fastest %.3g "
+      "%d bubbles, wetness %.2f, dt %g ms, %s to %g: %.2f contacts per bubble, %.1f iterations, fastest %.3g "
       "m/s%s\n",
-      options.bubbles, options.wetness, 1e3 * options.dt, options.forces.c_str(), result.contacts,
-      result.iterations, result.last.maxSpeed, result.last.solverFellBack ? ", direct solver" : "");
+      options.bubbles, options.wetness, 1e3 * options.dt, options.forces.c_str(), options.tolerance,
+      result.contacts, result.iterations, result.last.maxSpeed,
+      result.last.solverFellBack ? ", direct solver" : "");
   for (const auto& [name, seconds] : result.stages)
     std::printf("  %-12s %9.4f s  %8.1f ns per bubble\n", name.c_str(), seconds,
                 1e9 * seconds / options.bubbles);
@@ -205,8 +210,9 @@ void print(const Result& result) {
 void write(const Result& result, std::FILE* table) {
   for (const auto* part : {&result.stages, &result.reference})
     for (const auto& [name, seconds] : *part)
-      std::fprintf(table, "%d,%g,%s,%.2f,%.1f,%s,%.5g,%.5g\n", result.options.bubbles, result.options.wetness,
-                   result.options.forces.c_str(), result.contacts, result.iterations, name.c_str(), seconds,
+      std::fprintf(table, "%d,%g,%s,%g,%.2f,%.1f,%s,%.5g,%.5g\n", result.options.bubbles,
+                   result.options.wetness, result.options.forces.c_str(), result.options.tolerance,
+                   result.contacts, result.iterations, name.c_str(), seconds,
                    1e9 * seconds / result.options.bubbles);
   std::fflush(table);
 }
@@ -217,7 +223,8 @@ int runAll(const char* path) {
     std::fprintf(stderr, "bench_foam_step: %s: cannot be written\n", path);
     return 4;
   }
-  std::fprintf(table, "bubbles,wetness,forces,contacts_per_bubble,iterations,stage,seconds,ns_per_bubble\n");
+  std::fprintf(
+      table, "bubbles,wetness,forces,tolerance,contacts_per_bubble,iterations,stage,seconds,ns_per_bubble\n");
   const auto add = [&](const Options& options) {
     const Result result = measure(options);
     print(result), write(result, table);
@@ -228,6 +235,7 @@ int runAll(const char* path) {
     for (const double wetness : {0.4, 0.8}) options.wetness = wetness, add(options);
     options.wetness = 0.4, options.reference = false;
     for (const char* forces : {"attraction", "newton"}) options.forces = forces, add(options);
+    options.forces = "contacts", options.tolerance = kCoke, add(options);
   }
   return std::fclose(table) == 0 ? 0 : 4;
 }

@@ -130,7 +130,8 @@ TEST(WallPins, StuckBubblesStayWhateverHappensElsewhere) {
 TEST(WallPins, CatchingABubbleLeavesTheRestOfTheStepAsAccurate) {
   constexpr int kHeap = 200;
   constexpr double kSame = 1e-7;  // [m]
-  const FoamParams params = stickyParams();
+  FoamParams params = stickyParams();
+  params.solverTolerance = 1e-6;
   const StillPool pane = paneAboveWater(params);
   const auto stepped = [&](bool withArrival) {
     BubbleStore bubbles;
