@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "foam/ball_checks.h"
@@ -34,7 +35,9 @@ using Vertex = Triangulation::Vertex_handle;
 using Real = FilmPolygon::Real;
 using Point = FilmPolygon::Point;
 
-constexpr std::int32_t kGuard = -1;  ///< index of the guard sites
+/// Guard sites have indices below 0, each its own.
+constexpr bool isGuard(std::int32_t index) { return index < 0; }
+
 /// Distance of the guard sites in sizes of the inflated foam: their planes stay clear of every ball, the
 /// numbers stay small.
 constexpr double kGuardDistance = 16;
@@ -56,10 +59,11 @@ Triangulation triangulate(const std::vector<Eigen::Vector3d>& position,
   }
   const Eigen::Vector3d centre = (low + high) / 2;
   const double far = kGuardDistance * ((high - low).norm() + 2 * largest);
+  std::int32_t guard = 0;
   for (const Eigen::Vector3d& corner : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, -1, -1),
                                         Eigen::Vector3d(-1, 1, -1), Eigen::Vector3d(-1, -1, 1)}) {
     const Eigen::Vector3d x = centre + far * corner;
-    sites.emplace_back(Triangulation::Weighted_point({x.x(), x.y(), x.z()}, 0), kGuard);
+    sites.emplace_back(Triangulation::Weighted_point({x.x(), x.y(), x.z()}, 0), --guard);
   }
   return Triangulation(sites.begin(), sites.end());
 }
@@ -80,13 +84,15 @@ Point relative(const Triangulation::Weighted_point& to, const Triangulation::Wei
 Point dualCorner(Triangulation::Cell_handle cell, Vertex origin) {
   Eigen::Matrix<Real, 3, 3> planes;
   Point offset;
-  int row = 0;
-  for (int k = 0; k < 4; ++k) {
-    if (cell->vertex(k) == origin) continue;
-    const Point to = relative(cell->vertex(k)->point(), origin->point());
+  std::array<Vertex, 3> others;
+  for (int k = 0, row = 0; k < 4; ++k)
+    if (cell->vertex(k) != origin) others[row++] = cell->vertex(k);
+  std::sort(others.begin(), others.end(), [](Vertex a, Vertex b) { return a->info() < b->info(); });
+  for (int row = 0; row < 3; ++row) {
+    const Triangulation::Weighted_point& site = others[row]->point();
+    const Point to = relative(site, origin->point());
     planes.row(row) = to;
-    offset[row++] =
-        (to.squaredNorm() + Real(origin->point().weight()) - Real(cell->vertex(k)->point().weight())) / 2;
+    offset[row] = (to.squaredNorm() + Real(origin->point().weight()) - Real(site.weight())) / 2;
   }
   return planes.inverse() * offset;
 }
@@ -100,7 +106,32 @@ Vertex thirdVertex(Triangulation::Cell_handle cell, Triangulation::Cell_handle n
   return {};
 }
 
-/// Walks over all edges of the triangulation and collects what touches the cells at their ends.
+/// An edge from its bubble with the lower index.
+struct OrientedEdge {
+  Vertex a, b;
+  Triangulation::Cell_handle cell;
+
+  explicit OrientedEdge(const Triangulation::Edge& edge)
+      : a(edge.first->vertex(edge.second)), b(edge.first->vertex(edge.third)), cell(edge.first) {
+    if (a->info() > b->info()) std::swap(a, b);
+  }
+  bool hasGuard() const { return isGuard(a->info()); }
+  bool operator<(const OrientedEdge& other) const {
+    return std::pair(a->info(), b->info()) < std::pair(other.a->info(), other.b->info());
+  }
+};
+
+/// Those between bubbles, sorted: CGAL lists edges, and turns around them from a cell, as their addresses
+/// have it, and sums would depend on those.
+std::vector<OrientedEdge> edgesOf(const AlphaShape& shape) {
+  std::vector<OrientedEdge> edges;
+  for (auto edge = shape.finite_edges_begin(); edge != shape.finite_edges_end(); ++edge)
+    if (const OrientedEdge oriented(*edge); !oriented.hasGuard()) edges.push_back(oriented);
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// Goes along all edges of the triangulation and collects what touches the cells at their ends.
 class DiagramMeasure {
  public:
   DiagramMeasure(const AlphaShape& shape, const std::vector<TieBrokenBall>& ball)
@@ -108,17 +139,15 @@ class DiagramMeasure {
     for (const TieBrokenBall& each : ball) cells_.emplace_back(each);
   }
 
-  void addEdge(const Triangulation::Edge& edge) {
-    Vertex a = edge.first->vertex(edge.second), b = edge.first->vertex(edge.third);
-    if (a->info() == kGuard || b->info() == kGuard) return;
-    if (a->info() > b->info()) std::swap(a, b);
-    const std::int32_t i = a->info(), j = b->info();
-    const double d = static_cast<double>(relative(b->point(), a->point()).norm());
+  void addEdge(const OrientedEdge& edge) {
+    const std::int32_t i = edge.a->info(), j = edge.b->info();
+    const double d = static_cast<double>(relative(edge.b->point(), edge.a->point()).norm());
     const double height = radicalHeight(ball_[i], ball_[j], d), other = radicalHeight(ball_[j], ball_[i], d);
     cells_[i].addPlane(height);
     cells_[j].addPlane(other);
-    if (shape_.classify(edge) == AlphaShape::EXTERIOR) return;
-    const FilmShape film = measure(edge, a, b);
+    const int a = edge.cell->index(edge.a), b = edge.cell->index(edge.b);
+    if (shape_.classify({edge.cell, a, b}) == AlphaShape::EXTERIOR) return;
+    const FilmShape film = measure(edge.a, edge.b, shape_.incident_cells(edge.cell, a, b));
     const double shift = radicalHeightShift(ball_[i], ball_[j], d);
     cells_[i].addFilm(film, height, shift, film.solidNear);
     cells_[j].addFilm(film, other, -shift, film.solidFar);
@@ -130,7 +159,7 @@ class DiagramMeasure {
     out.volume.assign(n, 0), out.freeArea.assign(n, 0), out.filmArea.assign(n, 0), out.hidden.assign(n, 1);
     for (const auto& vertex : diagram.finite_vertex_handles()) {
       const std::int32_t i = vertex->info();
-      if (i == kGuard || cells_[i].hidden()) continue;
+      if (isGuard(i) || cells_[i].hidden()) continue;
       out.hidden[i] = 0;
       out.volume[i] = cells_[i].volume();
       out.freeArea[i] = cells_[i].freeArea();
@@ -142,20 +171,26 @@ class DiagramMeasure {
   }
 
  private:
-  FilmShape measure(const Triangulation::Edge& edge, Vertex a, Vertex b) const {
+  /// `cell` turns around the edge from a to b.
+  FilmShape measure(Vertex a, Vertex b, Triangulation::Cell_circulator cell) const {
     const auto& ballA = ball_[a->info()];
     FilmPolygon polygon(ballA, ball_[b->info()], relative(b->point(), a->point()));
-    auto cell = shape_.incident_cells(edge);
-    const auto first = cell;
+    const auto next = [](Triangulation::Cell_circulator of) { return ++of; };
+    const auto indexAt = [&](Triangulation::Cell_circulator at) {
+      return thirdVertex(at, next(at), a, b)->info();
+    };
+    auto first = cell;
+    for (auto at = next(cell); at != cell; ++at)
+      if (indexAt(at) < indexAt(first)) first = at;
+    cell = first;
     do {
-      const Triangulation::Cell_handle here = cell, next = ++cell;
-      const Vertex third = thirdVertex(here, next, a, b);
+      const Vertex third = thirdVertex(cell, next(cell), a, b);
       const Point site = relative(third->point(), a->point());
-      const double shift = third->info() == kGuard ? 0
-                                                   : radicalHeightShift(ballA, ball_[third->info()],
-                                                                        static_cast<double>(site.norm()));
-      polygon.addCorner(dualCorner(here, a), site, shift);
-    } while (cell != first);
+      const double shift = isGuard(third->info()) ? 0
+                                                  : radicalHeightShift(ballA, ball_[third->info()],
+                                                                       static_cast<double>(site.norm()));
+      polygon.addCorner(dualCorner(cell, a), site, shift);
+    } while (++cell != first);
     return polygon.integrate();
   }
 
@@ -196,8 +231,7 @@ void PowerDiagram::compute(const std::vector<Eigen::Vector3d>& position, const s
   Triangulation diagram = triangulate(position, ball, 0);
   const AlphaShape shape(diagram, 0);  // takes the triangulation over
   DiagramMeasure measure(shape, ball);
-  for (auto edge = shape.finite_edges_begin(); edge != shape.finite_edges_end(); ++edge)
-    measure.addEdge(*edge);
+  for (const OrientedEdge& edge : edgesOf(shape)) measure.addEdge(edge);
   measure.write(shape, out);
   listOverlaps(position, radius, ball, out);
 }
@@ -214,7 +248,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> alphaComplexEdges(
   for (auto edge = shape.finite_edges_begin(); edge != shape.finite_edges_end(); ++edge) {
     const std::int32_t i = edge->first->vertex(edge->second)->info(),
                        j = edge->first->vertex(edge->third)->info();
-    if (i == kGuard || j == kGuard || (!all && shape.classify(*edge) == AlphaShape::EXTERIOR)) continue;
+    if (isGuard(i) || isGuard(j) || (!all && shape.classify(*edge) == AlphaShape::EXTERIOR)) continue;
     pairs.push_back(std::minmax(i, j));
   }
   std::sort(pairs.begin(), pairs.end());
