@@ -47,9 +47,29 @@ std::vector<ResultRow> rest(const StudyContext&) {
   return rows;
 }
 
-/// A thousand of them, and what else S22 asks of a pile: its height at both steps, and its volumes.
+/// Piles of a thousand, drawn anew each: the worst of their speeds and volumes, and their mean height.
+struct LargePiles {
+  static constexpr int kCount = 4;
+  double speed = 0;        ///< rms, worst [m/s]
+  double volumeError = 0;  ///< worst [%]
+  double height = 0;       ///< [m]
+
+  LargePiles(foam::Preset preset, double dt) {
+    Crowd crowd = kLargePile;
+    for (int draw = 0; draw < kCount; ++draw, ++crowd.seed) {
+      const Settling pile(foam::makePreset(preset), crowd, dt);
+      speed = std::max(speed, rmsSpeed(pile.bubbles));
+      volumeError = std::max(volumeError, 100 * pile.report.volumeErrorMax);
+      height += gasHeight(pile.bubbles) / kCount;
+    }
+  }
+};
+
+/// A thousand of them, and what else S22 asks of a pile: its height at both steps, and its volumes. How one
+/// pile comes to lie is chance, by 2 to 3 % of its height.
 std::vector<ResultRow> thousand(const StudyContext&) {
   constexpr double kSameHeight = 5, kVolume = 1;  // [%]
+  const std::string piles = std::to_string(LargePiles::kCount) + " times ";
   std::vector<ResultRow> rows;
   for (const foam::Preset preset : kPresets) {
     const std::string name = nameOf(preset);
@@ -57,14 +77,16 @@ std::vector<ResultRow> thousand(const StudyContext&) {
       rows.push_back(restRow(Settling(foam::makePreset(preset), kLargeRaft, dt), kLargeRaft, dt, name));
     std::vector<double> height;
     for (const double dt : kRestSteps) {
-      const Settling pile(foam::makePreset(preset), kLargePile, dt);
-      rows.push_back(restRow(pile, kLargePile, dt, name + ", pile"));
-      ResultRow volume{.resolution = nameOf(kLargePile, dt), .quantity = name + ", pile: worst volume error"};
-      rows.push_back(aimAtMost(volume, 100 * pile.report.volumeErrorMax, kVolume, "%"));
-      height.push_back(gasHeight(pile.bubbles));
+      const LargePiles all(preset, dt);
+      ResultRow speed{.resolution = piles + nameOf(kLargePile, dt),
+                      .quantity = name + ", worst pile: rms speed after 8 s"};
+      ResultRow volume{.resolution = speed.resolution, .quantity = name + ", worst pile: worst volume error"};
+      rows.push_back(aimAtMost(speed, all.speed, kLargeRest, "m/s"));
+      rows.push_back(aimAtMost(volume, all.volumeError, kVolume, "%"));
+      height.push_back(all.height);
     }
-    ResultRow same{.resolution = "1000 of r 1.25-5 mm",
-                   .quantity = name + ", pile: height at dt 20 against 5 ms"};
+    ResultRow same{.resolution = piles + "1000 of r 1.25-5 mm",
+                   .quantity = name + ", piles: mean height at dt 20 against 5 ms"};
     rows.push_back(aimAtMost(same, 100 * (height[1] / height[0] - 1), kSameHeight, "%"));
   }
   return rows;

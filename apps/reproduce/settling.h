@@ -12,6 +12,7 @@ struct Crowd {
   double smallest, largest;  ///< radii [m]
   double edge, depth;        ///< of the box [m]
   bool apart;                ///< none touches another at the start
+  std::uint64_t seed = 5;    ///< of radii and places
 };
 
 /// A crowd in still liquid, and what it does after 8 s.
@@ -28,7 +29,7 @@ struct Settling {
     box.lower = {-edge / 2, -crowd.depth, -edge / 2}, box.upper = {edge / 2, edge, edge / 2};
     box.closed = {true, true, true, false, true, true};
     for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(crowd.count); ++i) {
-      foam::CounterRandom random(5, i, 2);
+      foam::CounterRandom random(crowd.seed, i, 2);
       const double r = crowd.smallest + (crowd.largest - crowd.smallest) * random.uniform();
       Eigen::Vector3d place = drawPlace(crowd, r, random);
       while (crowd.apart && touchesAny(place, r)) place = drawPlace(crowd, r, random);
