@@ -204,6 +204,12 @@ void InflowSet::release(SolidBoundary& boundary) {
   for (auto nozzle = nozzles_.rbegin(); nozzle != nozzles_.rend(); ++nozzle) release(*nozzle, boundary);
 }
 
+void InflowSet::resume(double t, SolidBoundary& boundary) {
+  release(boundary);
+  for (std::size_t n = 0; n < inflows_.size(); ++n)
+    if (scaleAt(inflows_[n], t) > 0) close(nozzles_[n], boundary), setSpeed(n, t, boundary);
+}
+
 const std::vector<PouredVolume>& InflowSet::stamp(double t, double dt, DenseField<float>& phi,
                                                   SolidBoundary& boundary) {
   poured_.clear();

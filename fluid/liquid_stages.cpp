@@ -73,7 +73,7 @@ void LiquidStages::startPockets() {
 
 void LiquidStages::resumeControl() {
   if (state.subSteps > 0)
-    inflows.stamp(state.time, 0, state.phi, solids);
+    inflows.resume(state.time, solids);
   else
     inflows.release(solids);  // nothing has been poured yet
   bodies.find(state.grid, state.phi, solids);

@@ -149,7 +149,7 @@ std::string untimed(const std::string& table) {
 /// Whether the program takes the scene.
 bool runsAndResumes(std::uint64_t seed) {
   const Scratch scratch;
-  const std::string scene = scratch.write("scene.toml", RandomScene(seed).text());
+  const std::string text = RandomScene(seed).text(), scene = scratch.write("scene.toml", text);
   const auto run = [&](const std::string& folder, int frames) {
     return runSpume("run " + scene + " -o " + scratch / folder + " --no-preview --frames " +
                     std::to_string(frames));
@@ -166,10 +166,10 @@ bool runsAndResumes(std::uint64_t seed) {
   const auto same = [&](const std::string& file) {
     return contentsOf(scratch / ("whole/" + file)) == contentsOf(scratch / ("parts/" + file));
   };
-  EXPECT_TRUE(same("bubbles/bubbles.0004.ply")) << seed;
+  EXPECT_TRUE(same("bubbles/bubbles.0004.ply")) << seed << text;
   EXPECT_EQ(untimed(contentsOf(scratch / "whole/steps.csv")),
             untimed(contentsOf(scratch / "parts/steps.csv")))
-      << seed;
+      << seed << text;
   return true;
 }
 

@@ -162,6 +162,22 @@ TEST(Inflow, OneThatOpensAtTheEndOfAStepIsOpenInARunResumedThere) {
   EXPECT_GE(subSteps, 3);
 }
 
+/// Where a nozzle reaches into a solid, phi there is what liquid outside makes of it, not the nozzle's: a
+/// checkpoint holds it as it is.
+TEST(Inflow, ARunResumedLeavesTheSurfaceAsItWas) {
+  const GridSpec grid = boxGrid(16);
+  const LiquidSetup setup = {grid,
+                             DomainWalls{},
+                             {sphere({0.08, 0.09, 0.05}, 0.03)},
+                             {nozzle({0.08, 0.1, 0.08}, {0, -0.3, 0}, 0.02, 0.03)}};
+  LiquidSolver solver({}, setup, [](const Eigen::Vector3d& x) { return x.y() - 0.05; });
+  for (int step = 0; step < 6; ++step) {
+    solver.step(3 * kDt);
+    LiquidSolver resumed({}, setup, solver.state());
+    EXPECT_TRUE(test::sameBits(solver.state().phi, resumed.state().phi)) << step;
+  }
+}
+
 TEST(Inflow, RejectsWhatCannotPour) {
   const GridSpec grid = boxGrid(16);
   const Inflow good = nozzle({0.08, 0.14, 0.08}, {0, -0.8, 0}, 0.02, 0.04);
