@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "foam/ball_checks.h"
 #include "foam/cell_sums.h"
