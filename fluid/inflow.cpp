@@ -205,7 +205,6 @@ void InflowSet::release(SolidBoundary& boundary) {
 }
 
 void InflowSet::resume(double t, SolidBoundary& boundary) {
-  release(boundary);
   for (std::size_t n = 0; n < inflows_.size(); ++n)
     if (scaleAt(inflows_[n], t) > 0) close(nozzles_[n], boundary), setSpeed(n, t, boundary);
 }

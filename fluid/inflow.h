@@ -46,7 +46,7 @@ class InflowSet {
   const std::vector<PouredVolume>& stamp(double t, double dt, DenseField<float>& phi,
                                          SolidBoundary& boundary);
 
-  /// Brings the faces to where a stamp at t has left them; phi knows already of the regions.
+  /// Brings released faces to where a stamp at t has left them; phi knows already of the regions.
   void resume(double t, SolidBoundary& boundary);
 
   /// Gives the faces of all regions back, as before the first stamp.

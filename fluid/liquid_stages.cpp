@@ -56,6 +56,7 @@ LiquidStages::LiquidStages(FluidParams p, LiquidSetup s)
 }
 
 void LiquidStages::start() {
+  inflows.release(solids);  // what is rebuilt here knows walls and solids alone
   updateSolidBoundary(state.grid, setup.walls, setup.solids, state.time, solids);
   extension.rebuild(solids);
   wallSlip.rebuild(solids);
@@ -72,10 +73,7 @@ void LiquidStages::startPockets() {
 }
 
 void LiquidStages::resumeControl() {
-  if (state.subSteps > 0)
-    inflows.resume(state.time, solids);
-  else
-    inflows.release(solids);  // nothing has been poured yet
+  if (state.subSteps > 0) inflows.resume(state.time, solids);  // else nothing has been poured yet
   bodies.find(state.grid, state.phi, solids);
   volumeControl.resume(bodies, state.volume);
   findPockets(state.time);

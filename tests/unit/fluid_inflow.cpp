@@ -164,7 +164,7 @@ TEST(Inflow, OneThatOpensAtTheEndOfAStepIsOpenInARunResumedThere) {
 
 /// Where a nozzle reaches into a solid, phi there is what liquid outside makes of it, not the nozzle's: a
 /// checkpoint holds it as it is.
-TEST(Inflow, ARunResumedLeavesTheSurfaceAsItWas) {
+TEST(Inflow, ARunResumedOrTakenBackGoesOnAsItWas) {
   const GridSpec grid = boxGrid(16);
   const LiquidSetup setup = {grid,
                              DomainWalls{},
@@ -175,6 +175,10 @@ TEST(Inflow, ARunResumedLeavesTheSurfaceAsItWas) {
     solver.step(3 * kDt);
     LiquidSolver resumed({}, setup, solver.state());
     EXPECT_TRUE(test::sameBits(solver.state().phi, resumed.state().phi)) << step;
+    solver.step(kDt), solver.rollBack();
+    solver.step(kDt), resumed.step(kDt);
+    for (int a = 0; a < 3; ++a)
+      EXPECT_TRUE(test::sameBits(solver.state().velocity[a], resumed.state().velocity[a])) << step;
   }
 }
 
